@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
 from cpp_functions import Unbalanced, code_lines, find_functions, plain_code, without_comments_and_literals
-from words import check_glossary, check_readmes
+from words import check_glossary, check_paths, check_readmes
 
 TOP_LEVEL = {'CMakeLists.txt', 'engine', 'collision', 'scenes', 'tests', 'data', 'README.md', 'LICENSE', 'CMakePresets.json',
              'pyproject.toml', '.ci', '.github', '.clang-format', '.clang-tidy', '.editorconfig', '.gitignore', '.gitattributes'}
@@ -23,7 +23,7 @@ CODE_SUFFIXES = ('.cpp', '.h', '.inl')
 # Which part may include which, by folder. `public` = engine's public headers, `public_collision` = collision's. Every part of
 # engine but `public` may include its tolerances.h; a layer's tolerances.h includes no file of the project.
 PUBLIC = {'public', 'public_collision'}
-ENGINE_PARTS = ['support', 'kernels', 'mesh', 'model', 'forces', 'contact', 'schemes', 'linear', 'plan', 'solve', 'span', 'checks',
+ENGINE_PARTS = ['support', 'kernels', 'mesh', 'model', 'forces', 'contact', 'schemes', 'linear', 'plan', 'solve', 'substep', 'checks',
                 'step', 'changes', 'start', 'state']
 MAY_INCLUDE = {
     'public': {'public'},
@@ -438,7 +438,7 @@ def check_test_size(tree):
 
 RULES = (check_top_level, check_directions, check_rooms, check_collision_folders, check_cycles, check_modules,
          check_folder_sizes, check_mirror, check_public_headers, check_names, check_texts, check_test_namespaces,
-         check_readmes, check_glossary)
+         check_readmes, check_paths, check_glossary)
 
 
 def check(root):

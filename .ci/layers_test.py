@@ -324,7 +324,11 @@ class Glossary(unittest.TestCase):
     def test_only_in_the_folders_of_a_word(self):
         way = words_module.Word('way', 'displacement', ('engine',))
         self.assertEqual(self.said('scenes/a.h', 'int way;\n', way), [])
-        self.assertEqual(self.said('engine_room/a.h', 'int way;\n', way), [])
+        self.assertEqual(self.said('engineroom/a.h', 'int way;\n', way), [])
+        law = words_module.Word('way', 'displacement', ('engine/contact/friction',))
+        for path, said in (('engine/contact/friction.h', 1), ('engine/contact/friction_law.h', 1), ('engine/contact/frictions.h', 0),
+                           ('engine/contact/penalty.h', 0)):
+            self.assertEqual(len(self.said(path, 'int way;\n', law)), said, path)
 
     def test_prose_only_where_told(self):
         text = '// In this way.\nint x;  /* a way\n   or two Ways */\nconst char* s = "way";\n'
@@ -341,10 +345,32 @@ class Glossary(unittest.TestCase):
         way = words_module.Word('way', 'displacement', ('engine',))
         self.assertEqual(len(self.said('engine/a.h', 'int way; int f() { return way; }\n', way)), 1)
 
+    def test_names_that_users_have_are_left_alone(self):
+        word = words_module.Word('cut', 'clamp', ('engine',))
+        self.assertEqual(self.said('engine/a.h', 'int line_search_cuts;\n', word), [])
+        self.assertEqual(len(self.said('engine/a.h', 'int line_cuts;\n', word)), 1)
+
     def test_the_projects_glossary_is_checked(self):
-        word = words_module.GLOSSARY[0]
-        found = violations({f'{word.folders[0]}/thing.h': f'int {word.forbidden};\n'})
-        self.assertIn(f'the glossary says {word.instead}', '\n'.join(found))
+        words = words_module.GLOSSARY
+        texts = {f'{path}/thing_{k}.h': f'int {word.forbidden};\n' for k, word in enumerate(words) for path in word.paths}
+        found = [line for line in violations(texts) if 'the glossary says' in line]
+        for k, word in enumerate(words):
+            of_word = [line for line in found if f'/thing_{k}.h:' in line and f'says {word.instead}' in line]
+            self.assertEqual(len(of_word), len(word.paths), word)
+
+
+class Paths(unittest.TestCase):
+    def missing(self, text, file='engine/README.md'):
+        return [line.rsplit(' ', 1)[1] for line in violations({file: text, 'engine/mesh/shapes.cpp': '', 'engine/mesh/shapes.h': ''})
+                if 'there is no' in line]
+
+    def test_paths_that_prose_names_exist(self):
+        self.assertEqual(self.missing('`engine/mesh/shapes.{h,cpp}`, `mesh/shapes.h`, `engine/mesh/`, [m](mesh/shapes.h), `x/y.h`\n'), [])
+        self.assertEqual(self.missing('`engine/mesh/shape.{h,cpp}`, `engine/meshes/`, [m](shapes.h)\n'),
+                         ['engine/mesh/shape.h', 'engine/mesh/shape.cpp', 'engine/meshes/', 'shapes.h'])
+
+    def test_forms_of_names_and_addresses_are_no_paths(self):
+        self.assertEqual(self.missing('`engine/mesh/NAME.cpp`, `engine/mesh/x_test.cpp`, [w](https://a.org/b), [here](#part)\n'), [])
 
 
 class FunctionFinder(unittest.TestCase):

@@ -60,8 +60,8 @@ FAULTS = [
     Fault('overflow in a picture', 'sanitizers_night', 'scenes/picture/surfaces.cpp',
           'around(mesh.vertices.size());', 'around(mesh.vertices.size() - 1);', 'AddressSanitizer'),
     Fault('data race', 'races', 'collision/lists/candidate_lists.cpp',
-          '        double most = 0.0;\n        for (std::size_t i = first; i < last; ++i) {\n            const Vec3 gone',
-          '        static double most = 0.0;\n        for (std::size_t i = first; i < last; ++i) {\n            const Vec3 gone', 'data race'),
+          '        double max = 0.0;\n        for (std::size_t i = first; i < last; ++i) {\n            const Vec3 gone',
+          '        static double max = 0.0;\n        for (std::size_t i = first; i < last; ++i) {\n            const Vec3 gone', 'data race'),
 ]
 
 

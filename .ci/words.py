@@ -1,6 +1,7 @@
-"""What layers.py checks of the project's words: the glossary, and the size of READMEs."""
+"""What layers.py checks of the project's words: the glossary, the size of READMEs, and the paths that they name."""
 import re
 from dataclasses import dataclass
+from posixpath import normpath
 
 from cpp_functions import LITERAL, without_comments_and_literals
 
@@ -10,7 +11,7 @@ README_WIDTH = 120
 
 @dataclass
 class Word:
-    """A word that the project does not use in some folders, and what it says instead.
+    """A word that the project does not use below some paths, and what it says instead.
 
     In identifiers it counts as a whole part, singular or plural: `way` forbids `way`, `least_ways` and `WayLimit`, not `always`; a word
     of several parts, `least_share`, forbids those parts in a row. In prose (comments, READMEs) it is looked for only where told,
@@ -18,13 +19,63 @@ class Word:
     """
     forbidden: str
     instead: str
-    folders: tuple
+    paths: tuple
     in_prose: bool = False
 
 
+CODE = ('engine', 'collision', 'scenes', 'tests')
+CONTACT = ('engine/contact', 'engine/solve', 'engine/substep', 'engine/step', 'engine/checks', 'collision/lists', 'collision/self',
+           'collision/detector', 'tests/engine/contact', 'tests/engine/solve', 'tests/engine/substep', 'tests/engine/step')
+FRICTION = ('engine/contact', 'tests/engine/contact')
+
+# Private words, with the field's.
 GLOSSARY = [
     Word('way', 'displacement', ('engine', 'collision', 'scenes')),
+    Word('row', 'contact constraint (rows are those of a matrix or a table)', CONTACT),
+    Word('contact_row', 'contact constraint', ('engine', 'collision'), True),
+    Word('zone', 'activation distance', ('engine', 'collision', 'tests/engine', 'tests/collision'), True),
+    Word('row_share', 'edge-edge mollifier', CODE, True),
+    Word('standing', 'persistent', ('collision/lists', 'collision/detector', 'tests/collision/lists')),
+    Word('contact_memory', 'warm start', CODE, True),
+    Word('foreseen', 'trial contacts, or extrapolated', CODE, True),
+    Word('foresee', 'find trial contacts, or extrapolate', CODE, True),
+    Word('self_group', 'island', CODE, True),
+    Word('group', 'island', ('collision/self', 'tests/collision/self')),
+    Word('cut', 'clamp', ('collision/self', 'collision/geometry', 'collision/lists', 'collision/detector')),
+    Word('safe_fraction', 'collision-free step size', CODE, True),
+    Word('safe_time', 'time-of-impact lower bound', CODE, True),
+    Word('touch', 'friction contact', FRICTION),
+    Word('rub', 'cloth-cloth friction contact', CODE, True),
+    Word('grip', 'stick anchor', ('engine', 'collision', 'tests/engine', 'tests/collision'), True),
+    Word('reach', 'stick threshold', ('engine/contact/friction', 'engine/contact/penalty', 'tests/engine/contact/friction',
+                                      'tests/engine/contact/penalty')),
+    Word('press', 'friction limit, or normal force', FRICTION),
+    Word('heading', 'slip direction', ('engine', 'tests/engine')),
+    Word('obstacle_flow', 'obstacle motion', CODE, True),
+    Word('span_end', 'substep outcome', CODE, True),
+    Word('span_result', 'substep result', CODE, True),
+    Word('dropped_span', 'dropped substep', CODE, True),
+    Word('patch', 'local subset', ('engine/solve', 'engine/linear', 'tests/engine/solve', 'tests/engine/linear'), True),
+    Word('gain_record', 'energy-error estimate', CODE, True),
+    Word('most_turned', 'curvature condition', CODE, True),
+    Word('armijo_share', 'Armijo constant', CODE, True),
+    Word('translations', 'rigid-mode correction', ('engine/solve', 'tests/engine/solve'), True),
+    Word('enclosed_block', 'pressure block', CODE, True),
+    Word('filling', 'gas state', ('engine/forces', 'tests/engine/forces')),
+    Word('float_vector', 'Vec3 arrays', CODE),
+    Word('for_stretche', 'parallel_for_chunks', CODE),
+    Word('stretch_count', 'chunk count', CODE),
+    Word('dent', 'deflection', ('engine', 'tests/engine'), True),
+    Word('yielding', 'compliant obstacle', CODE),
+    Word('newton_share', 'newton_error_ratio', ('engine', 'scenes')),
+    Word('tell', 'report', ('engine', 'collision', 'scenes', 'tests')),
+    Word('told', 'reported', ('engine', 'collision', 'scenes', 'tests')),
+    Word('most', 'max', ('engine', 'collision', 'scenes')),
+    Word('least', 'min', ('engine', 'collision', 'scenes')),
 ]
+
+# Names that users have, and everyday words in whose identifiers the glossary does not look.
+NOT_SEARCHED = {'contacts_most', 'at_most', 'at_least', 'at_least_one', 'at_least_one_why', 'line_search_cuts', 'most_pairs', 'most_tests'}
 
 IDENTIFIER = re.compile(r'[A-Za-z_]\w*')
 PARTS = re.compile(r'[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+')
@@ -53,7 +104,7 @@ def words_in_code(text, words):
     """(line, word, identifier or None for prose), each identifier once a file."""
     code, seen, found = without_comments_and_literals(text), set(), []
     for name in IDENTIFIER.finditer(code):
-        if name.group() not in seen:
+        if name.group() not in seen | NOT_SEARCHED:
             seen.add(name.group())
             snake = parts_of(name.group())
             found += [(line_of(code, name.start()), word, name.group()) for word in words if forbids(word.forbidden, snake)]
@@ -68,10 +119,15 @@ def words_in_prose(text, words):
             for found in re.finditer(pattern(word), text, re.I)]
 
 
+def is_below(path, start):
+    """Whether a path begins with another, up to the end of one of its parts or of a file's name."""
+    return re.match(rf'{re.escape(start)}(?![a-z0-9])', path) is not None
+
+
 def check_glossary(tree, glossary=None):
     """One complaint an identifier and file, and one a place in prose."""
     for path, text in tree.text.items():
-        words = [word for word in (GLOSSARY if glossary is None else glossary) if path.split('/')[0] in word.folders]
+        words = [word for word in (GLOSSARY if glossary is None else glossary) if any(is_below(path, start) for start in word.paths)]
         if path.endswith(('.cpp', '.h', '.inl')):
             found = words_in_code(text, words)
         else:
@@ -101,3 +157,31 @@ def check_readmes(tree):
         for number, line in prose_lines(text):
             if len(line) > README_WIDTH:
                 tree.complain(path, number, f'line of a README too wide ({len(line)}, {README_WIDTH})')
+
+
+PATH = re.compile(r'`([\w./{},-]+/[\w./{},-]*)`|\]\((?!https?:)([^)#\s]+)')
+OF_FORM = re.compile(r'NAME|(?<![a-z])x_test|(?<![a-z])x\.')   # of any file of its kind
+
+
+def alternatives(path):
+    """`a.{h,cpp}` as both of its paths."""
+    braces = re.search(r'\{([^}]*)\}', path)
+    if not braces:
+        return [path]
+    return [one for end in braces.group(1).split(',') for one in alternatives(path[:braces.start()] + end + path[braces.end():])]
+
+
+def check_paths(tree):
+    """Files and folders that prose names, from the top or from its own folder, exist. Those of builds and runs are not looked for."""
+    known = set(tree.files) | {path.rsplit('/', n)[0] for path in tree.files for n in range(1, path.count('/') + 1)}
+    tops = {path.split('/')[0] for path in known}
+    for file, text in tree.text.items():
+        if not file.endswith('.md'):
+            continue
+        folder = file.rpartition('/')[0]
+        for found in PATH.finditer(text):
+            for path in alternatives(found.group(1) or found.group(2)):
+                starts = ['', folder] if found.group(1) else [folder]
+                is_ours = not found.group(1) or path.split('/')[0] in tops
+                if is_ours and not OF_FORM.search(path) and not any(normpath(f'{start}/{path}').strip('/') in known for start in starts):
+                    tree.complain(file, line_of(text, found.start()), f'there is no {path}')

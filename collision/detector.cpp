@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "geometry/cut_floor.h"
+#include "geometry/clamp_floor.h"
 #include "lists/candidate_state.h"
 #include "lists/feature_minima.h"
 #include "lists/list_passes.h"
@@ -80,29 +80,29 @@ public:
             {between_cloths_->triangles(), free, between_cloths_->stitches(), between_cloths_->meeting(), cancel_}, positions);
     }
 
-    void refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) override {
+    void update_candidates(std::span<const Vec3> start, std::span<const Vec3> predicted) override {
         if (!lists_) lists_.emplace(triangles_, thickness_, start);
         if (!lists_->empty()) forget_contacts(start);
         lists_->cover({.from = start, .to = predicted, .fraction = {0.0, 1.0}}, obstacles_, workers_);
-        if (between_cloths_) between_cloths_->refresh(start, predicted, workers_);
+        if (between_cloths_) between_cloths_->update_candidates(start, predicted, workers_);
     }
 
-    void evaluate(std::span<const Vec3> positions, double fraction, ContactRows& rows) override {
+    void find_contacts(std::span<const Vec3> positions, double fraction, ContactConstraints& constraints) override {
         if (!lists_) lists_.emplace(triangles_, thickness_, positions);
         lists_->cover({.from = positions, .to = positions, .fraction = {fraction, fraction}}, obstacles_, workers_);
-        rows.clear();
+        constraints.clear();
         smallest_distance_ = std::numeric_limits<double>::infinity();
-        if (!lists_->empty()) add_rows(positions, fraction, rows);
+        if (!lists_->empty()) add_constraints(positions, fraction, constraints);
         if (!between_cloths_) return;
-        smallest_distance_ = std::min(smallest_distance_, between_cloths_->add_rows(positions, rows, workers_));
+        smallest_distance_ = std::min(smallest_distance_, between_cloths_->add_constraints(positions, constraints, workers_));
     }
 
-    double largest_safe_fraction(std::span<const Vec3> from, std::span<const Vec3> to, StepFraction fraction) override {
+    double collision_free_step_size(std::span<const Vec3> from, std::span<const Vec3> to, StepFraction fraction) override {
         if (!lists_) lists_.emplace(triangles_, thickness_, from);
         const ClothMove move{.from = from, .to = to, .fraction = fraction};
         double safe = lists_->cover(move, obstacles_, workers_);
-        if (!lists_->empty()) safe = cut(move, safe);
-        return between_cloths_ ? std::min(safe, between_cloths_->largest_safe_fraction(from, to, workers_)) : safe;
+        if (!lists_->empty()) safe = clamp(move, safe);
+        return between_cloths_ ? std::min(safe, between_cloths_->collision_free_step_size(from, to, workers_)) : safe;
     }
 
     double smallest_distance() const override { return smallest_distance_; }
@@ -127,7 +127,7 @@ public:
         state.demand(forgotten_at.empty() || forgotten_at.size() == thickness_.size(), "a wrong number of vertices");
         std::optional<CandidateLists> lists;
         if (listed) lists = restored_lists(triangles_, thickness_, obstacles_, lists_ ? &*lists_ : nullptr, state);
-        std::optional<SelfListsMemory> between_cloths;
+        std::optional<SelfListsState> between_cloths;
         if (between_cloths_) between_cloths = between_cloths_->restored(state);
         state.demand(state.at_end(), "there is more than belongs to it");
         set_motions(motions, obstacles_);
@@ -151,43 +151,43 @@ private:
         return static_cast<int>(obstacles_.size()) - 1;
     }
 
-    /// Near clusters in stretches, each on a thread; what they found is joined in the order of the clusters, so rows do not
-    /// depend on the threads.
-    void add_rows(std::span<const Vec3> positions, double fraction, ContactRows& rows) {
+    /// Near clusters are searched in chunks on several threads; results are joined in the order of the clusters, so constraints
+    /// do not depend on the threads.
+    void add_constraints(std::span<const Vec3> positions, double fraction, ContactConstraints& constraints) {
         near_clusters_.clear();
         for (ClusterList& list : lists_->lists()) {
             if (list.quiet_until <= list.travel) near_clusters_.push_back(&list);
         }
         const std::span<ClusterList* const> near = near_clusters_;
         const std::size_t grain = workers_ ? tolerances::clusters_a_part : near.size() + 1,
-                          parts = stretch_count(near.size(), grain);
+                          parts = chunk_count(near.size(), grain);
         if (searches_.size() < parts) searches_.resize(parts);
-        for_stretches(workers_, near.size(), grain, [&](std::size_t first, std::size_t last, int) {
-            RowSearch& own = searches_[first / grain];
-            own.run(*this, near.subspan(first, last - first), positions, fraction, parts == 1 ? rows : own.rows);
+        parallel_for_chunks(workers_, near.size(), grain, [&](std::size_t first, std::size_t last, int) {
+            ConstraintSearch& own = searches_[first / grain];
+            own.run(*this, near.subspan(first, last - first), positions, fraction, parts == 1 ? constraints : own.constraints);
         });
-        for (const RowSearch& own : std::span(searches_).first(parts)) {
+        for (const ConstraintSearch& own : std::span(searches_).first(parts)) {
             smallest_distance_ = std::min(smallest_distance_, own.smallest_distance);
-            if (parts > 1) rows.append(own.rows);
+            if (parts > 1) constraints.append(own.constraints);
         }
     }
 
-    /// Where one of a list's bounds is at most `limit`. Valid until `found` is used again.
+    /// The places where one of a list's bounds is at most `limit`. Valid until `found` is used again.
     static std::span<const int> packs_up_to(const std::vector<float>& bounds, double limit, std::vector<int>& found) {
         if (found.size() < bounds.size()) found.resize(bounds.size());
         const long count = pack_kernels().find_up_to(bounds.data(), static_cast<long>(bounds.size()), above(limit), found.data());
         return std::span<const int>(found).first(static_cast<std::size_t>(count));
     }
 
-    /// The rows of some clusters. Each pass asks memory for what the next places need: it is too much for the nearest caches.
-    class RowSearch {
+    /// Finds the constraints of some clusters. Each pass prefetches for the next places, as the data exceed the nearest caches.
+    class ConstraintSearch {
     public:
-        ContactRows rows;  // where the caller wants them here
+        ContactConstraints constraints;  // where they do not go to the caller's at once
         double smallest_distance = std::numeric_limits<double>::infinity();
 
         void run(const MeshDetector& detector, std::span<ClusterList* const> clusters, std::span<const Vec3> positions,
-                 double fraction, ContactRows& to) {
-            rows.clear();
+                 double fraction, ContactConstraints& to) {
+            constraints.clear();
             smallest_distance = std::numeric_limits<double>::infinity();
             find_candidates(clusters);
             select_packs(detector, positions);
@@ -216,7 +216,7 @@ private:
             }
         }
 
-        /// Those of them that have to be measured: most are told to be far by their hulls.
+        /// Selects those of them that have to be measured: the hulls of most are far away.
         void select_packs(const MeshDetector& detector, std::span<const Vec3> positions) {
             selected_.clear();
             const ContactPair* last = nullptr;
@@ -253,7 +253,7 @@ private:
                 }
                 const SelectedPack& at = selected_[i];
                 const PackAnswer answer = detector.measure_pack(here, at, detector.thickness_[at.feature().cloth[0]]);
-                for (unsigned lanes = answer.row | (at.list->packs.at[at.index].standing & answer.near); lanes != 0;
+                for (unsigned lanes = answer.contact | (at.list->packs.at[at.index].persistent & answer.near); lanes != 0;
                      lanes &= lanes - 1) {
                     lanes_.push_back({at, std::countr_zero(lanes)});
                     __builtin_prefetch(&detector.packs_for(at.feature()).packs[at.number()].feature);
@@ -280,33 +280,33 @@ private:
     void fetch_hull(const SelectedPack& at) const { __builtin_prefetch(&packs_for(at.feature()).hulls[at.number()]); }
     const PackHull& hull_of(const SelectedPack& at) const { return obstacles_[at.feature().obstacle]->hull(at.number()); }
 
-    /// Lowers `safe` to what all clusters allow.
-    double cut(const ClothMove& move, double safe) {
-        // Stretches are the same for any number of threads; within one, what a cluster allows is all that the next ones look at.
-        constexpr std::size_t grain = tolerances::clusters_a_cut;
-        cuts_.resize(stretch_count(lists_->lists().size(), grain));
-        for_stretches(workers_, lists_->lists().size(), grain, [&](std::size_t first, std::size_t last, int) {
-            StretchCut& own = cuts_[first / grain];
+    /// Lowers `safe` to the collision-free step size of all clusters.
+    double clamp(const ClothMove& move, double safe) {
+        // Chunks are the same for any number of threads; within one, the limit of a cluster bounds the search of the next ones.
+        constexpr std::size_t grain = tolerances::clusters_per_clamp;
+        clamps_.resize(chunk_count(lists_->lists().size(), grain));
+        parallel_for_chunks(workers_, lists_->lists().size(), grain, [&](std::size_t first, std::size_t last, int) {
+            ChunkClamp& own = clamps_[first / grain];
             own.safe = safe;
-            for (std::size_t i = first; i < last; ++i) cut_cluster(move, i, own);
+            for (std::size_t i = first; i < last; ++i) clamp_to_cluster(move, i, own);
         });
-        for (const StretchCut& own : cuts_) safe = std::min(safe, own.safe);
+        for (const ChunkClamp& own : clamps_) safe = std::min(safe, own.safe);
         return safe;
     }
 
-    /// Contacts of vertices that have moved since theirs were last forgotten, and all while an obstacle moves. Those of cloth
-    /// that rests stay, or contacts that join while a step is solved would be missing at the start of the next: the cloth would
-    /// tremble between the two.
+    /// Drops the persistent contacts of vertices that have moved since theirs were last dropped, and all while an obstacle moves.
+    /// Those of cloth at rest stay: otherwise contacts that join while a step is solved would be missing at the start of the
+    /// next, and the cloth would tremble between the two sets.
     void forget_contacts(std::span<const Vec3> positions) {
         const auto moves = [](const auto& obstacle) { return obstacle->largest_displacement() > 0.0; };
         const bool all = forgotten_at_.size() != positions.size() || std::ranges::any_of(obstacles_, moves);
         forgotten_at_.resize(positions.size(), Vec3::Zero());
         moved_.resize(positions.size());
         for (std::size_t i = 0; i < positions.size(); ++i) {
-            moved_[i] = all || (positions[i] - forgotten_at_[i]).norm() > tolerances::forgetting_displacement * thickness_[i];
+            moved_[i] = all || (positions[i] - forgotten_at_[i]).norm() > tolerances::persistence_displacement * thickness_[i];
             if (moved_[i]) forgotten_at_[i] = positions[i];
         }
-        lists_->forget_standing(moved_);
+        lists_->forget_persistent(moved_);
     }
 
     PackAnswer measure_pack(const ClothMove& move, const SelectedPack& at, double near) const {
@@ -324,44 +324,44 @@ private:
         return feature.with(packs_for(feature).packs[at.place.number()], at.lane);
     }
 
-    /// The distance of the pair.
+    /// Returns the distance of the pair.
     double add_lane(std::span<const Vec3> positions, double fraction, const SelectedLane& at, FeatureMinima& minima,
-                    ContactRows& rows) const {
+                    ContactConstraints& constraints) const {
         const ContactPair pair = pair_of(at);
         const double thickness = thickness_[pair.cloth[0]];
         const PairContact contact = pair_contact(pair, positions, *obstacles_[pair.obstacle], fraction);
-        if (contact.distance >= thickness || row_share(contact, thickness) == 0.0) return contact.distance;
-        // A pair that was a contact stays one until the next refresh: rows only join while a step is being solved, so
-        // that the force is continuous where closest points pass from one feature to the next.
+        if (contact.distance >= thickness || edge_mollifier(contact, thickness) == 0.0) return contact.distance;
+        // A pair that was a contact stays one until the next update of the candidates: constraints are only added while a step is
+        // being solved, so that the force is continuous where closest points pass from one feature to the next.
         const auto& [list, pack] = at.place;
         if (contact.local_minimum) {
-            list->packs.activate(pack, at.lane, thickness);
-            list->has_standing = true;
+            list->packs.make_persistent(pack, at.lane, thickness);
+            list->has_persistent = true;
         }
-        if ((list->packs.at[pack].standing >> at.lane & 1U) == 0) return contact.distance;
-        add_row(pair, contact, thickness, rows);
+        if ((list->packs.at[pack].persistent >> at.lane & 1U) == 0) return contact.distance;
+        add_constraint(pair, contact, thickness, constraints);
         minima.add(contact.local_minimum);
         return contact.distance;
     }
 
-    void add_row(const ContactPair& pair, const PairContact& contact, double thickness, ContactRows& rows) const {
-        rows.vertex.push_back({pair.cloth[0], pair.cloth[1], pair.cloth[2], -1});
-        rows.weight.push_back(contact.weight);
-        rows.direction.push_back(contact.direction);
-        rows.obstacle_point.push_back(contact.obstacle_point);
-        rows.obstacle_displacement.push_back(contact.obstacle_displacement);
-        rows.distance.push_back(contact.distance);
-        rows.thickness.push_back(thickness);
-        rows.friction.push_back(obstacles_[pair.obstacle]->friction());
-        rows.share.push_back(row_share(contact, thickness));
-        rows.obstacle.push_back(pair.obstacle);
-        rows.feature.push_back(pair.feature);
+    void add_constraint(const ContactPair& pair, const PairContact& contact, double thickness, ContactConstraints& to) const {
+        to.vertex.push_back({pair.cloth[0], pair.cloth[1], pair.cloth[2], -1});
+        to.weight.push_back(contact.weight);
+        to.direction.push_back(contact.direction);
+        to.obstacle_point.push_back(contact.obstacle_point);
+        to.obstacle_displacement.push_back(contact.obstacle_displacement);
+        to.distance.push_back(contact.distance);
+        to.thickness.push_back(thickness);
+        to.friction.push_back(obstacles_[pair.obstacle]->friction());
+        to.mollifier.push_back(edge_mollifier(contact, thickness));
+        to.obstacle.push_back(pair.obstacle);
+        to.feature.push_back(pair.feature);
     }
 
-    /// Where a cloth feature goes during a move.
+    /// How a cloth feature moves.
     struct FeatureMove {
         int number = -1;        // in the list
-        double approach = 0.0;  // m, of it and the listed obstacles
+        double approach = 0.0;  // m, of it and the listed obstacles towards each other
         double thickness = 0.0;
         Box room;
     };
@@ -377,23 +377,23 @@ private:
             own.room.add(move.to[vertex]);
         }
         own.approach = std::sqrt(square) + part * list.spread;
-        own.room.grow(tolerances::cut_floor * own.thickness);
+        own.room.grow(tolerances::clamp_floor * own.thickness);
     }
 
-    /// What a stretch of clusters allows, and memory to find it.
-    struct StretchCut {
+    /// Collision-free step size of a chunk of clusters, with work space.
+    struct ChunkClamp {
         double safe = 1.0;
         std::vector<int> found;
     };
 
     /// Lowers own.safe where a pair of the cluster needs it.
-    void cut_cluster(const ClothMove& move, std::size_t cluster, StretchCut& stretch) {
-        double& safe = stretch.safe;
+    void clamp_to_cluster(const ClothMove& move, std::size_t cluster, ChunkClamp& chunk) {
+        double& safe = chunk.safe;
         ClusterList& list = lists_->lists()[cluster];
         const double limit = list.travel + distance_that_keeps_floor(lists_->approach(cluster, move) * safe, list.thickness);
         if (list.smallest_reach >= limit) return;
         FeatureMove own;
-        for (const int pack : packs_up_to(list.packs.reach, limit, stretch.found)) {
+        for (const int pack : packs_up_to(list.packs.reach, limit, chunk.found)) {
             const SelectedPack at{&list, pack};
             const ContactPair& feature = at.feature();
             if (own.number != list.packs.at[pack].feature) {
@@ -404,24 +404,24 @@ private:
             if (static_cast<double>(list.packs.reach[pack]) - list.travel >= near) continue;
             const PackHull& hull = hull_of(at);
             const bool may_cross =
-                !stays_above(hull, feature, move, tolerances::cut_floor * own.thickness) && hull.box().overlaps(own.room);
-            if (may_cross) safe = cut_pack(move, near, at, safe);
+                !stays_above(hull, feature, move, tolerances::clamp_floor * own.thickness) && hull.box().overlaps(own.room);
+            if (may_cross) safe = clamp_to_pack(move, near, at, safe);
         }
         CandidateLists::set_smallest_bounds(list);
     }
 
-    double cut_pack(const ClothMove& move, double near, const SelectedPack& at, double safe) const {
+    double clamp_to_pack(const ClothMove& move, double near, const SelectedPack& at, double safe) const {
         const PackAnswer answer = measure_pack(move, at, near);
         const Obstacle& obstacle = *obstacles_[at.feature().obstacle];
         for (unsigned lanes = answer.near; lanes != 0; lanes &= lanes - 1) {
             const ContactPair pair = at.feature().with(obstacle.packs().packs[at.number()], std::countr_zero(lanes));
             const Vec3 apart = pair_apart(pair, move.from, obstacle, move.fraction.from);
             const MovingFour four = moving_pair(pair, move, obstacle);
-            const double distance = apart.norm(), floor = floor_of_cut(four, distance, thickness_[pair.cloth[0]]);
+            const double distance = apart.norm(), floor = clamped_distance(four, distance, thickness_[pair.cloth[0]]);
             // Convex features that a plane parts at both ends of a straight move are parted by it throughout.
             const double enough = floor + tolerances::clearance_left * (distance - floor);
             if (distance > 0.0 && gap_along(four, cloth_slots(pair.kind), apart / distance, safe) >= enough) continue;
-            safe = safe_time(four, shape_of(pair.kind), floor, safe);
+            safe = time_of_impact_lower_bound(four, shape_of(pair.kind), floor, safe);
         }
         return safe;
     }
@@ -432,15 +432,15 @@ private:
     Obstacles obstacles_;
     std::optional<CandidateLists> lists_;
     std::vector<ClusterList*> near_clusters_;
-    std::vector<RowSearch> searches_;
-    std::vector<StretchCut> cuts_;
+    std::vector<ConstraintSearch> searches_;
+    std::vector<ChunkClamp> clamps_;
     Workers* workers_ = nullptr;
     const std::atomic<bool>* cancel_ = nullptr;
-    std::vector<Vec3> forgotten_at_;                      // m, where each vertex was when its contacts were last forgotten
-    std::vector<unsigned char> moved_;                    // whether they are to be forgotten now
+    std::vector<Vec3> forgotten_at_;                      // m, where each vertex was when its contacts were last dropped
+    std::vector<unsigned char> moved_;                    // whether they are to be dropped now
     std::optional<SelfContactDetection> between_cloths_;  // if any cloth meets cloth
     double smallest_distance_ = std::numeric_limits<double>::infinity();
-    mutable std::optional<std::uint64_t> scene_hash_;  // of cloth and obstacles as they are, once it was asked for
+    mutable std::optional<std::uint64_t> scene_hash_;  // of cloth and obstacles as they are, once it was computed
 };
 
 }  // namespace

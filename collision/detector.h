@@ -7,7 +7,7 @@
 
 namespace percale {
 
-/// The detector all backends share: lists, exact distances, rows and cuts on top of a backend's tree.
+/// The detector that all backends share: lists, exact distances, contact constraints and clamps on top of a backend's tree.
 std::unique_ptr<ContactDetector> make_detector(TreeFactory make_tree);
 
 }  // namespace percale

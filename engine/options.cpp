@@ -158,7 +158,7 @@ constexpr Option<StepSettings> step_list[] = {
      .unit = "m",
      .sentence = "Error of positions, in the mean over a cloth, that the steps of a second may add by their estimates; what "
                  "becomes of it "
-                 "later is the cloth's (percale compare tells). Used where time_step is auto.",
+                 "later is the cloth's (percale compare measures it). Used where time_step is auto.",
      .lowest = 1e-9,
      .highest = 1.0,
      .number = [](StepSettings& s) { return &s.tolerance; }},
@@ -174,17 +174,19 @@ constexpr Option<StepSettings> step_list[] = {
     {.key = "newton_tolerance",
      .unit = "",
      .sentence =
-         "Residual relative to the first of the step; auto keeps the solver's error below newton_share of the step's time error.",
+         "Residual relative to the first of the step; auto keeps the solver's error below newton_error_ratio of the step's time "
+         "error.",
      .lowest = 1e-12,
      .highest = 1.0,
      .number_or_auto = [](StepSettings& s) { return &s.newton_tolerance; }},
-    {.key = "newton_share",
+    {.key = "newton_error_ratio",
      .unit = "",
      .sentence = "How large the solver's error may be beside the step's time error, where newton_tolerance is auto; in steps of "
                  "automatic length at most 0.25.",
+     .former = "newton_share",
      .lowest = 1e-3,
      .highest = 100.0,
-     .number = [](StepSettings& s) { return &s.newton_share; }},
+     .number = [](StepSettings& s) { return &s.newton_error_ratio; }},
     {.key = "newton_iterations",
      .unit = "",
      .sentence = "Newton iterations at most; 1 is linearly implicit.",
@@ -308,7 +310,7 @@ bool same(const SpringConstants& a, const SpringConstants& b) {
     return a.structural == b.structural && a.shear == b.shear && a.bend == b.bend;
 }
 
-/// Springs and damping left as they are by default, or none at all, do not contradict moduli.
+/// Springs and damping that keep their defaults, or that are absent, do not contradict moduli.
 void check_exclusions(const Fabric& fabric, const std::string& name) {
     const Fabric defaults;
     const bool own_springs = !same(fabric.springs, defaults.springs) && !same(fabric.springs, {.structural = 0.0});
@@ -338,7 +340,7 @@ void check_moduli(const Fabric& fabric, const std::string& name) {
 }  // namespace
 
 std::uint64_t options_hash(const StepSettings& settings) {
-    StepSettings of = settings;  // the list names fields that may be written
+    StepSettings of = settings;  // the list of options needs writable fields
     StateWriter writer;
     const auto put = [&](auto field) {
         if (field) writer(*field(of));

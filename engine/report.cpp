@@ -11,7 +11,7 @@ std::string numbered(const char* what, int number, const std::string& name) {
     return std::string(what) + " " + std::to_string(number) + (name.empty() ? "" : " (" + name + ")");
 }
 
-/// Cloth between pins that stay and a body that goes is not too slow.
+/// The stretch, unless cloth is held between fixed pins and a moving body, which is not a matter of speed.
 std::string stretch_text(const StepReport& report) {
     std::ostringstream text;
     text << "an edge of " << numbered("cloth", report.stretched_cloth, report.stretched_name) << " is stretched to "
@@ -20,7 +20,7 @@ std::string stretch_text(const StepReport& report) {
     return text.str();
 }
 
-/// Why cloth does not follow a body, and what would help.
+/// Why cloth does not follow a body, and which setting would help.
 std::string lag_text(const StepReport& report) {
     std::ostringstream text;
     if (report.stretched_cloth >= 0) return stretch_text(report);
@@ -32,7 +32,7 @@ std::string lag_text(const StepReport& report) {
     return "take a shorter time step or a slower motion";
 }
 
-/// What moves too far for a step.
+/// The sentence about something that moves too far for a step.
 std::string far_text(const std::string& mover, double travel) {
     std::ostringstream text;
     text << mover << " moves " << travel
@@ -41,7 +41,7 @@ std::string far_text(const std::string& mover, double travel) {
     return text.str();
 }
 
-/// A step is made in parts where something moves far in it; whether it moved or jumped its caller knows.
+/// A step is divided where something moves far in it; only the caller knows whether it moved or jumped.
 std::string jump_text(const StepReport& report) {
     if (report.jump <= 0.0) return "";
     std::ostringstream text;
@@ -84,9 +84,10 @@ std::string failure_text(const StepReport& report) {
                 else
                     text << blocker << " and " << numbered("obstacle", report.second_obstacle, report.second_name);
                 text << " close on the cloth, which cannot get out of their way; "
-                     << (report.yielded_in_vain ? "what yields gave way, but not enough in 64 parts of the step (are its edges "
-                                                  "longer than a few thicknesses?); "
-                                                : "one that yields (on_pinch) would give way; ")
+                     << (report.yielded_in_vain
+                             ? "the compliant obstacle gave way, but not enough in 64 parts of the step (are its edges "
+                               "longer than a few thicknesses?); "
+                             : "a compliant one (on_pinch) would give way; ")
                      << "smallest safe fraction of a move " << report.smallest_fraction;
                 break;
             }
@@ -117,14 +118,14 @@ std::string failure_text(const StepReport& report) {
 
 }  // namespace
 
-void DroppedSpans::add(SpanEnd end) {
-    if (end == SpanEnd::not_converged) ++not_converged;
-    if (end == SpanEnd::blocked) ++blocked;
-    if (end == SpanEnd::not_finite) ++not_finite;
-    if (end == SpanEnd::inexact) ++inexact;
+void DroppedSubsteps::add(SubstepOutcome end) {
+    if (end == SubstepOutcome::not_converged) ++not_converged;
+    if (end == SubstepOutcome::blocked) ++blocked;
+    if (end == SubstepOutcome::not_finite) ++not_finite;
+    if (end == SubstepOutcome::inexact) ++inexact;
 }
 
-DroppedSpans& DroppedSpans::operator+=(const DroppedSpans& more) {
+DroppedSubsteps& DroppedSubsteps::operator+=(const DroppedSubsteps& more) {
     not_converged += more.not_converged;
     blocked += more.blocked;
     not_finite += more.not_finite;
@@ -132,7 +133,7 @@ DroppedSpans& DroppedSpans::operator+=(const DroppedSpans& more) {
     return *this;
 }
 
-std::string DroppedSpans::text() const {
+std::string DroppedSubsteps::text() const {
     const std::pair<int, const char*> counts[] = {
         {not_converged, "not converged"}, {blocked, "blocked"}, {not_finite, "not finite"}, {inexact, "not exact enough"}};
     std::string text;

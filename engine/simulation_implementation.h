@@ -16,8 +16,8 @@
 #include "step/step.h"
 #include "tolerances.h"
 
-// What the sources of Simulation share: simulation_scene.cpp (made of what, steps, saved states), simulation_script.cpp (what the
-// caller prescribes), simulation_changes.cpp (what it makes otherwise on the way) and simulation_views.cpp (what it looks at).
+// What the sources of Simulation share: simulation_scene.cpp (bodies, steps, saved states), simulation_script.cpp (what the
+// caller prescribes), simulation_changes.cpp (changes during a run) and simulation_views.cpp (views of the state).
 namespace percale {
 
 inline std::string number_text(double value) {
@@ -76,10 +76,10 @@ struct Simulation::Implementation {
     World world;
     std::vector<StartMove> start_moves;  // with the caller's numbers
     bool keeps_previous = false;
-    std::vector<Vec3> previous;  // m, of each vertex before the last step; those that it has not are where they are now
+    std::vector<Vec3> previous;  // m, of each vertex before the last step; vertices beyond its end are where they are now
     SavedSize saved_size;
 
-    /// Where a body stands among those of its kind.
+    /// Index of a body among those of its kind.
     static int index_of(const GivenNumbers& numbers, int number, const std::string& kind) {
         const int index = numbers.index_of(number);
         if (index >= 0) return index;
@@ -94,25 +94,25 @@ struct Simulation::Implementation {
     const ClothRange& cloth(ClothId id) const { return world.scene.model.cloths[index(id)]; }
     ObstacleState& obstacle(ObstacleId id) { return world.scene.script.obstacles[index(id)]; }
 
-    /// The caller's numbers in place of those that bodies have inside; -1 stays.
+    /// The caller's number for an internal index of a cloth; -1 stays.
     int cloth_number(int index) const { return index < 0 ? index : world.cloth_numbers.all[index]; }
     int obstacle_number(int index) const { return index < 0 ? index : world.obstacle_numbers.all[index]; }
-    void tell_numbers(StepReport& report) const {
+    void report_numbers(StepReport& report) const {
         for (int* cloth : {&report.blocked_cloth, &report.stretched_cloth}) *cloth = cloth_number(*cloth);
         for (int* obstacle : {&report.blocking_obstacle, &report.second_obstacle, &report.pinching[0], &report.pinching[1]})
             *obstacle = obstacle_number(*obstacle);
     }
-    void tell_numbers(std::vector<StartMove>& moves) const {
+    void report_numbers(std::vector<StartMove>& moves) const {
         for (StartMove& move : moves) {
             move.cloth = cloth_number(move.cloth);
             move.obstacle = obstacle_number(move.obstacle);
         }
     }
-    /// clear_start, with the caller's numbers, in what it throws, too.
+    /// Calls clear_start, with the caller's numbers in its result and in its exceptions.
     std::vector<StartMove> cleared_start(const char* verb) {
         try {
             std::vector<StartMove> moves = clear_start(world, verb);
-            tell_numbers(moves);
+            report_numbers(moves);
             return moves;
         } catch (const StartError& error) {
             StartFault fault = error.fault();
@@ -120,7 +120,7 @@ struct Simulation::Implementation {
             throw StartError(error.what(), fault);
         }
     }
-    /// As saved states have them.
+    /// The same moves as saved states hold them, with internal numbers.
     std::vector<StartMove> moves_inside() const {
         std::vector<StartMove> moves = start_moves;
         for (StartMove& move : moves) {
@@ -152,24 +152,24 @@ struct Simulation::Implementation {
         return at < world.state.impulses.size() ? world.state.impulses[at] : ObstacleImpulse{};
     }
 
-    /// For a cloth with self_contact.
+    /// Throws unless the cloth has self_contact.
     void check_meets(const std::string& name) const {
         if (!world.scene.detector) throw SceneError(name, "self_contact needs a contact detector, give one to the simulation");
     }
 
-    /// `what` counts `size` entries.
+    /// Throws unless `what` has `size` entries.
     void check_size(const ClothRange& range, std::size_t size, const char* call, const char* what) const {
         if (static_cast<int>(size) == range.count) return;
         throw SceneError(range.name, std::string(call) + " got " + std::to_string(size) + " " + what + " for " +
                                          std::to_string(range.count) + " vertices");
     }
 
-    /// The vertices of a cloth were put elsewhere in no time.
+    /// To be called after the vertices of a cloth were placed elsewhere in no time.
     void was_placed(const ClothRange& range) {
         const auto is_of_cloth = [&](const auto& held) {
             return held.vertex >= range.first && held.vertex < range.first + range.count;
         };
-        std::erase_if(world.state.cloth.grips, is_of_cloth);
+        std::erase_if(world.state.cloth.stick_anchors, is_of_cloth);
         std::erase_if(world.state.cloth.impacts, is_of_cloth);
         update_points(world.state.cloth);
         forget_previous(range);
@@ -181,7 +181,7 @@ struct Simulation::Implementation {
         wake(world.rest);
     }
 
-    /// Nothing lies between where the cloth was and is.
+    /// The cloth has no displacement in the last step.
     void forget_previous(const ClothRange& range) {
         const std::size_t end = std::min(previous.size(), static_cast<std::size_t>(range.first + range.count));
         for (std::size_t i = range.first; i < end; ++i) previous[i] = world.state.cloth.points[i];
@@ -205,9 +205,9 @@ struct Simulation::Implementation {
         }
     }
 
-    /// A step whose seams closed, and whose cloth was then moved: what it measured, of the state as it is now. The energy that
-    /// moving gave is work. `before`: the energy until then, J.
-    void tell_of_moves(double before, StepReport& report) const {
+    /// Sets what was measured in a step whose seams closed, and whose cloth was then moved, to the state as it is now. The
+    /// energy that moving gave is work. `before`: the energy until then, J.
+    void report_moves_of(double before, StepReport& report) const {
         if (!world.scene.plan.measures) return;
         const StepEnergy now = energy_of(world.scene, world.state);
         report.energy.work += now.total() - before;

@@ -7,8 +7,8 @@
 #include "simulation_implementation.h"
 #include "start/start_check.h"
 #include "state/saved_world.h"
+#include "step/compliant_obstacle.h"
 #include "step/sewing.h"
-#include "step/yielding.h"
 #include "support/checked_workers.h"
 #include "support/stage_timer.h"
 #include "support/thread_pool.h"
@@ -58,13 +58,13 @@ ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, co
     world.scene.model = std::move(model);
     world.work.newton.solver.forget_model();
     set_workers(world);
-    // The vertices of earlier cloths keep state and pins.
+    // The vertices of earlier cloths keep their state and their pins.
     ClothState state;
     for (auto* vectors : {&state.positions, &state.velocities}) vectors->resize(world.scene.model.vertex_count());
     state.points = world.state.cloth.points;
     state.points.insert(state.points.end(), world.scene.model.rest.end() - static_cast<long>(placed.vertices.size()),
                         world.scene.model.rest.end());
-    state.grips = world.state.cloth.grips;
+    state.stick_anchors = world.state.cloth.stick_anchors;
     state.rest_length = world.state.cloth.rest_length;
     add_rest_lengths(world.scene.model.springs, state.rest_length);
     copy_in(state.points, state.positions);
@@ -72,7 +72,7 @@ ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, co
         state.velocities.set(static_cast<int>(i), world.state.cloth.velocities.at(static_cast<int>(i)));
     }
     AlignedVector<double> free(state.positions.padded_size(), 0.0);
-    Vectors targets = state.positions;
+    Vec3Arrays targets = state.positions;
     for (int i = 0; i < world.scene.model.vertex_count(); ++i) {
         const bool old = i < static_cast<int>(world.state.cloth.points.size());
         free[i] = old ? world.scene.script.free[i] : 1.0;
@@ -117,7 +117,7 @@ ObstacleId Simulation::add_obstacle(const TriangleMesh& mesh, const Pose& pose, 
                                             .reach = placed.scale * std::sqrt(square),
                                             .start_shape = shape,
                                             .end_shape = shape,
-                                            .yielding = settings.yields ? yielding_mesh(mesh) : nullptr,
+                                            .compliant = settings.yields ? compliant_mesh(mesh) : nullptr,
                                             .aim = settings.yields ? shape : nullptr,
                                             .friction = settings.friction});
     world.changed = true;
@@ -159,12 +159,12 @@ StepReport Simulation::step() {
     const double start = cpu_seconds();
     prepare();
     if (implementation_->keeps_previous) implementation_->previous = world.state.cloth.points;
-    // Should cloth not come apart when seams have closed, the whole step is taken back.
+    // If cloth does not come apart when seams have closed, the whole step is taken back.
     const double next = world.state.time + 1.5 * world.scene.settings.time_step;
     const bool may_close = meets_cloth(world.scene) && waiting_cloth(world.scene, next) != world.waiting;
     const std::vector<std::byte> before = may_close ? implementation_->saved_if_possible() : std::vector<std::byte>();
     StepReport report = percale::step(world);
-    implementation_->tell_numbers(report);
+    implementation_->report_numbers(report);
     if (!report.slept) implementation_->update_views();
     if (report.ok() && waiting_cloth(world.scene, world.state.time) != world.waiting) {
         const std::size_t moves = implementation_->start_moves.size();
@@ -175,7 +175,7 @@ StepReport Simulation::step() {
             if (!before.empty()) restore(before);
             throw;
         }
-        if (implementation_->start_moves.size() > moves) implementation_->tell_of_moves(energy, report);
+        if (implementation_->start_moves.size() > moves) implementation_->report_moves_of(energy, report);
     }
     report.cpu_s = cpu_seconds() - start;
     return report;
@@ -190,7 +190,7 @@ std::vector<std::byte> Simulation::save() const { return implementation_->save()
 void Simulation::restore(std::span<const std::byte> saved) {
     check_scheme(implementation_->world.scene);
     implementation_->start_moves = restore_world(saved, implementation_->world);
-    implementation_->tell_numbers(implementation_->start_moves);
+    implementation_->report_numbers(implementation_->start_moves);
     implementation_->previous.clear();
     implementation_->update_views();
 }

@@ -30,7 +30,7 @@ void Simulation::move_pin(ClothId cloth, int vertex, const Vec3& target) {
     if (target != world.state.cloth.positions.at(at)) wake(world.rest);
     world.scene.script.pin_targets.set(at, target);
     if (std::ranges::find(world.refused.vertices, at) == world.refused.vertices.end()) return;
-    world.state.cloth.positions.set(at, target);  // no step begins where it is
+    world.state.cloth.positions.set(at, target);  // no step starts from the refused place
     world.state.past.forget();
     world.load_source = LoadSource::nowhere;
     update_points(world.state.cloth);
@@ -47,7 +47,7 @@ void Simulation::move_obstacle(ObstacleId obstacle, const Pose& end) {
     state.end = normalised(end);
     if (state.end != state.start) wake(implementation_->world.rest);
     if (implementation_->world.refused.obstacle != implementation_->index(obstacle)) return;
-    state.start = state.end;  // no step begins where it is
+    state.start = state.end;  // no step starts from the refused place
     state.settled = false;
 }
 
@@ -60,7 +60,7 @@ void Simulation::deform_obstacle(ObstacleId obstacle, std::span<const Vec3> end)
     }
     check_all_finite(end, state.name + ": vertex ");
     World& world = implementation_->world;
-    try {  // now, lest a step throws
+    try {  // at once, so that no step throws
         world.scene.detector->deform_obstacle(implementation_->index(obstacle), *state.start_shape, end);
     } catch (const SceneError& error) {
         throw SceneError(state.name, error.what());
@@ -69,8 +69,8 @@ void Simulation::deform_obstacle(ObstacleId obstacle, std::span<const Vec3> end)
     if (state.deforms()) wake(world.rest);
     if (world.refused.obstacle != implementation_->index(obstacle)) return;
     if (state.deforms()) state.reach = state.end_reach;
-    state.start_shape = state.end_shape;  // no step begins where it is
-    state.dent.clear();
+    state.start_shape = state.end_shape;  // no step starts from the refused place
+    state.deflection.clear();
     state.shape_travel = 0.0;
     state.settled = false;
 }

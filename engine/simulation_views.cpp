@@ -146,10 +146,10 @@ std::uint64_t Simulation::state_hash() const {
             hash.add(state.velocities.at(i)[axis]);
         }
     }
-    for (const Grip& grip : state.grips) {
-        hash.add(grip.vertex);
-        hash.add(grip.obstacle);
-        for (int axis = 0; axis < 3; ++axis) hash.add(grip.stretch[axis]);
+    for (const StickAnchor& stick_anchor : state.stick_anchors) {
+        hash.add(stick_anchor.vertex);
+        hash.add(stick_anchor.obstacle);
+        for (int axis = 0; axis < 3; ++axis) hash.add(stick_anchor.stretch[axis]);
     }
     return hash.value();
 }

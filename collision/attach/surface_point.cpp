@@ -15,7 +15,7 @@ namespace {
 
 using certificate::Corners;
 
-/// Columns: along the first edge, across it in the plane, along the normal. Nothing without an area.
+/// Columns: along the first edge, across it in the plane, along the normal. Returns nothing for a triangle without area.
 std::optional<Eigen::Matrix3d> axes_of(const Corners& t) {
     const Vec3 along = t[1] - t[0], normal = along.cross(t[2] - t[0]);
     if (!(normal.norm() > tolerances::flat_triangle * along.norm() * (t[2] - t[0]).norm())) return std::nullopt;

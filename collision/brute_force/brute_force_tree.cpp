@@ -6,7 +6,7 @@
 namespace percale {
 namespace {
 
-/// No tree: every triangle's box is compared with every asked box.
+/// No tree: every triangle's box is compared with every queried box.
 class BruteForceTree : public ObstacleTree {
 public:
     BruteForceTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles)

@@ -4,7 +4,7 @@
 
 namespace percale {
 
-/// Every box against every triangle; the standard the trees are held to.
+/// Compares every box with every triangle; it is the reference for the trees.
 std::unique_ptr<ObstacleTree> make_brute_force_tree(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
 
 }  // namespace percale

@@ -34,7 +34,7 @@ public:
         tree_.build(&faces, true, to_bullet(bounds_.low), to_bullet(bounds_.high));
     }
 
-    /// From the leaves to the root, the tree's shape as it is, its boxes rounded within new bounds.
+    /// Refits from the leaves to the root; the tree's shape stays, its boxes are rounded within new bounds.
     void refit() override {
         set_bounds();
         btTriangleIndexVertexArray faces = mesh();
@@ -58,7 +58,7 @@ private:
         bounds_.grow(tolerances::quantised_box * (bounds_.high - bounds_.low).norm());
     }
 
-    /// Bullet's interface asks for mutable pointers and only reads.
+    /// Bullet's interface takes mutable pointers and only reads.
     btTriangleIndexVertexArray mesh() const {
         return {static_cast<int>(triangles_.size()), const_cast<int*>(triangles_[0].data()),   sizeof(Triangle),
                 static_cast<int>(vertices_.size()),  const_cast<double*>(vertices_[0].data()), sizeof(Vec3)};

@@ -26,7 +26,7 @@ ErrorText& thread_error() noexcept {
 }
 
 percale_status failure(const char* function, ErrorText* of_object) noexcept {
-    const auto told = [&](percale_status status, const char* what) {
+    const auto reported = [&](percale_status status, const char* what) {
         thread_error().set(function, what);
         if (of_object != nullptr) of_object->set(function, what);
         return status;
@@ -34,19 +34,19 @@ percale_status failure(const char* function, ErrorText* of_object) noexcept {
     try {
         throw;
     } catch (const CallError& error) {
-        return told(error.status(), error.what());
+        return reported(error.status(), error.what());
     } catch (const StartError& error) {
-        return told(PERCALE_START_REFUSED, error.what());
+        return reported(PERCALE_START_REFUSED, error.what());
     } catch (const WorkersError& error) {
-        return told(PERCALE_INTERNAL_ERROR, error.what());
+        return reported(PERCALE_INTERNAL_ERROR, error.what());
     } catch (const SceneError& error) {
-        return told(PERCALE_INVALID_ARGUMENT, error.what());
+        return reported(PERCALE_INVALID_ARGUMENT, error.what());
     } catch (const std::bad_alloc&) {
-        return told(PERCALE_OUT_OF_MEMORY, "out of memory");
+        return reported(PERCALE_OUT_OF_MEMORY, "out of memory");
     } catch (const std::exception& error) {
-        return told(PERCALE_INTERNAL_ERROR, error.what());
+        return reported(PERCALE_INTERNAL_ERROR, error.what());
     } catch (...) {
-        return told(PERCALE_INTERNAL_ERROR, "an exception of unknown type");
+        return reported(PERCALE_INTERNAL_ERROR, "an exception of unknown type");
     }
 }
 

@@ -5,10 +5,10 @@
 #include "percale.h"
 #include "percale/error.h"
 
-// What every function of the C interface stands in: no exception leaves it, and every failure has a status and a text.
+// Every function of the C interface runs within these: no exception leaves it, and every failure has a status and a text.
 namespace percale::c_interface {
 
-/// A failure with the status that the caller gets; of a plain SceneError it is PERCALE_INVALID_ARGUMENT.
+/// A failure with the status that the caller gets; the status of a plain SceneError is PERCALE_INVALID_ARGUMENT.
 class CallError : public SceneError {
 public:
     CallError(percale_status status, const std::string& message) : SceneError(message), status_(status) {}
@@ -18,7 +18,7 @@ private:
     percale_status status_;
 };
 
-/// The text of an error; where memory does not do for it, one that says so.
+/// The text of an error; where memory is short, a text that states it.
 class ErrorText {
 public:
     void set(const char* function, const char* what) noexcept;
@@ -29,10 +29,10 @@ private:
     const char* shown_ = "";
 };
 
-/// Of the last call of this thread that failed.
+/// The error of the last failed call of this thread.
 ErrorText& thread_error() noexcept;
 
-/// Within a handler: the status of what was thrown; its text goes to the thread and, where there is one, to the object.
+/// Within a handler: returns the status of the exception; its text goes to the thread and, where there is one, to the object.
 percale_status failure(const char* function, ErrorText* of_object) noexcept;
 
 /// Throws SceneError where a pointer that is needed is NULL.
@@ -42,7 +42,7 @@ Value& demanded(Value* pointer, const char* name) {
     return *pointer;
 }
 
-/// Does the work; `function` is named in the text of an error.
+/// Runs the work; the text of an error names `function`.
 template <class Work>
 percale_status call(const char* function, Work work, ErrorText* of_object = nullptr) noexcept {
     try {

@@ -7,7 +7,7 @@
 #include "c/call.h"
 #include "percale/simulation.h"
 
-// What stands behind the opaque types of percale.h.
+// The definitions of the opaque types of percale.h.
 
 struct percale_simulation {
     explicit percale_simulation(percale::Simulation made) : simulation(std::move(made)) { simulation.set_cancel(&cancel); }

@@ -7,13 +7,14 @@
 #include "percale/contact.h"
 #include "percale/workers.h"
 
-// What a host chooses by word, and what it brings along.
+// What a host chooses by word, and the threads that it provides.
 namespace percale::c_interface {
 
-/// Of "fcl", "bullet", "brute_force"; null for "none". Throws SceneError for another word, CallError where it is not built.
+/// Makes the detector "fcl", "bullet" or "brute_force"; null for "none". Throws SceneError for another word, CallError where it
+/// is not built.
 std::unique_ptr<ContactDetector> make_detector(const std::string& word);
 
-/// A host's threads behind its callback; the simulation watches what they promise (CheckedWorkers).
+/// A host's threads behind its callback; the simulation checks their contract (CheckedWorkers).
 class HostWorkers : public Workers {
 public:
     /// Throws SceneError without a callback.

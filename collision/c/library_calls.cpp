@@ -2,7 +2,7 @@
 #include "c/host.h"
 #include "percale/report.h"
 
-// What percale.h tells of the library itself.
+// Functions of percale.h about the library itself.
 
 using namespace percale::c_interface;
 

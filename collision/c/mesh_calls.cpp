@@ -7,7 +7,7 @@
 #include "percale/certify.h"
 #include "percale/strain.h"
 
-// Meshes of percale.h, and what is asked of them alone.
+// Meshes of percale.h, and queries about them alone.
 
 using namespace percale::c_interface;
 
@@ -30,7 +30,7 @@ percale::TriangleMesh mesh_of(const std::vector<percale::Vec3>& vertices, std::s
     return mesh;
 }
 
-/// Mesh and rest shape of a cloth at its pose's scale.
+/// Mesh and rest shape of a cloth at the scale of its pose.
 std::pair<percale::TriangleMesh, percale::RestShape> scaled_rest(const percale::TriangleMesh& mesh,
                                                                  const percale_cloth_settings& settings) {
     percale::TriangleMesh scaled = mesh;
@@ -44,19 +44,19 @@ std::pair<percale::TriangleMesh, percale::RestShape> scaled_rest(const percale::
 }
 
 percale_certificate c_certificate(const percale::Certificate& found) {
-    auto told = default_struct<percale_certificate>();
-    told.watertight = found.watertight;
-    told.intersecting_pairs = found.pairs.size();
-    told.touching_pairs = static_cast<std::uint64_t>(found.touching_pairs);
+    auto reported = default_struct<percale_certificate>();
+    reported.watertight = found.watertight;
+    reported.intersecting_pairs = found.pairs.size();
+    reported.touching_pairs = static_cast<std::uint64_t>(found.touching_pairs);
     if (!found.pairs.empty()) {
-        told.first_cloth_triangle = found.pairs.front().first;
-        told.first_obstacle_triangle = found.pairs.front().second;
+        reported.first_cloth_triangle = found.pairs.front().first;
+        reported.first_obstacle_triangle = found.pairs.front().second;
     }
-    told.vertices_inside = found.vertices_inside;
-    told.deepest_vertex = found.deepest_vertex;
-    told.deepest_penetration = found.deepest_penetration;
-    told.smallest_distance = found.smallest_distance;
-    return told;
+    reported.vertices_inside = found.vertices_inside;
+    reported.deepest_vertex = found.deepest_vertex;
+    reported.deepest_penetration = found.deepest_penetration;
+    reported.smallest_distance = found.smallest_distance;
+    return reported;
 }
 
 }  // namespace

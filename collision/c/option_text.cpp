@@ -8,7 +8,7 @@
 namespace percale::c_interface {
 namespace {
 
-/// The number at the beginning of a text, which it takes away. Whatever the locale.
+/// Removes the number at the beginning of a text and returns it, in any locale.
 double taken_number(std::string_view& text, std::string_view whole, std::string_view key) {
     double number = 0.0;
     const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);

@@ -8,14 +8,14 @@
 #include "c/structs.h"
 #include "percale/options.h"
 
-// Options by key and text. What there is, with its ranges and words, is told by percale/options.h alone.
+// Options by key and text. The options, their ranges and their words are defined by percale/options.h alone.
 namespace percale::c_interface {
 
 /// A finite number that takes the whole text. Throws SceneError naming `key`.
 double number_of(std::string_view text, std::string_view key);
-/// As many, with spaces or a comma between.
+/// Several such numbers, separated by spaces or a comma.
 std::vector<double> numbers_of(std::string_view text, std::string_view key);
-/// As many digits as keep every bit.
+/// A text with as many digits as keep every bit.
 std::string exact_text(double number);
 /// Throws SceneError naming the key, the value and the range.
 void check_in_range(std::string_view key, double value, double lowest, double highest);
@@ -34,15 +34,15 @@ bool takes_auto(const Option<Owner>& option) {
     return option.automatic || option.zero_is_auto || option.number_or_auto;
 }
 
-/// The place of a word among those of an option. Throws SceneError naming them.
+/// The index of a word among those of an option. Throws SceneError naming them.
 int word_index(std::string_view key, std::string_view word, std::span<const std::string_view> words);
 
-/// Throws SceneError naming the keys that there are.
+/// Throws SceneError naming the existing keys.
 template <class Owner>
 const Option<Owner>& option_of(std::span<const Option<Owner>> options, std::string_view key) {
     std::string keys;
     for (const Option<Owner>& option : options) {
-        if (option.key == key) return option;
+        if (option.key == key || (!option.former.empty() && option.former == key)) return option;
         keys += (keys.empty() ? "" : ", ") + std::string(option.key);
     }
     throw SceneError(std::string(key), "there is no such option, there are " + keys);
@@ -98,7 +98,7 @@ void set_option_text(Owner& owner, const Option<Owner>& option, std::string_view
     }
 }
 
-/// As set_option_text takes it.
+/// The value as set_option_text takes it.
 template <class Owner>
 std::string option_text(Owner owner, const Option<Owner>& option) {
     const auto number_or = [](const std::optional<double>& number, const char* word) {
@@ -121,18 +121,18 @@ std::string option_text(Owner owner, const Option<Owner>& option) {
 /// Texts are those of the table of options, which are literals.
 template <class Owner>
 percale_option described(const Option<Owner>& option) {
-    auto told = default_struct<percale_option>();
-    told.takes_auto = takes_auto(option);
-    told.may_be_none = option.optional_number || option.optional_pair;
-    told.word_count = static_cast<int>(words_of(option).size());
-    told.numbers = told.word_count > 0 ? 0 : option.optional_pair ? 2 : 1;
-    told.integer = option.integer != nullptr;
-    told.key = option.key.data();
-    told.unit = option.unit.data();
-    told.sentence = option.sentence.data();
-    told.lowest = option.lowest;
-    told.highest = option.highest;
-    return told;
+    auto reported = default_struct<percale_option>();
+    reported.takes_auto = takes_auto(option);
+    reported.may_be_none = option.optional_number || option.optional_pair;
+    reported.word_count = static_cast<int>(words_of(option).size());
+    reported.numbers = reported.word_count > 0 ? 0 : option.optional_pair ? 2 : 1;
+    reported.integer = option.integer != nullptr;
+    reported.key = option.key.data();
+    reported.unit = option.unit.data();
+    reported.sentence = option.sentence.data();
+    reported.lowest = option.lowest;
+    reported.highest = option.highest;
+    return reported;
 }
 
 }  // namespace percale::c_interface

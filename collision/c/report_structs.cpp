@@ -76,26 +76,26 @@ void write_trouble(const StepReport& from, percale_step_report& to) {
 }  // namespace
 
 percale_energy c_energy(const StepEnergy& energy) {
-    auto told = default_struct<percale_energy>();
-    write_energy(energy, told);
-    return told;
+    auto reported = default_struct<percale_energy>();
+    write_energy(energy, reported);
+    return reported;
 }
 
 percale_step_report c_report(const StepReport& report) {
-    percale_step_report told{};
-    told.struct_size = sizeof told;
-    write_solution(report, told);
-    write_trouble(report, told);
-    write_energy(report.energy, told);
-    told.refresh_s = report.stages.refresh;
-    told.evaluate_s = report.stages.evaluate;
-    told.force_s = report.stages.force;
-    told.setup_s = report.stages.setup;
-    told.solve_s = report.stages.solve;
-    told.cut_s = report.stages.cut;
-    told.measure_s = report.stages.measure;
-    told.cpu_s = report.cpu_s;
-    return told;
+    percale_step_report reported{};
+    reported.struct_size = sizeof reported;
+    write_solution(report, reported);
+    write_trouble(report, reported);
+    write_energy(report.energy, reported);
+    reported.refresh_s = report.stages.refresh;
+    reported.evaluate_s = report.stages.evaluate;
+    reported.force_s = report.stages.force;
+    reported.setup_s = report.stages.setup;
+    reported.solve_s = report.stages.solve;
+    reported.cut_s = report.stages.cut;
+    reported.measure_s = report.stages.measure;
+    reported.cpu_s = report.cpu_s;
+    return reported;
 }
 
 template <>
@@ -104,15 +104,15 @@ percale_step_report default_struct() {
 }
 
 percale_start_fault c_start_fault(const StartFault& fault) {
-    auto told = default_struct<percale_start_fault>();
-    told.obstacle = fault.obstacle;
-    told.intersecting_pairs = fault.intersecting_pairs;
-    told.cloth_triangle = fault.cloth_triangle;
-    told.obstacle_triangle = fault.obstacle_triangle;
-    told.other_cloth_triangle = fault.other_cloth_triangle;
-    told.vertices_inside = fault.vertices_inside;
-    told.inside_vertex = fault.inside_vertex;
-    return told;
+    auto reported = default_struct<percale_start_fault>();
+    reported.obstacle = fault.obstacle;
+    reported.intersecting_pairs = fault.intersecting_pairs;
+    reported.cloth_triangle = fault.cloth_triangle;
+    reported.obstacle_triangle = fault.obstacle_triangle;
+    reported.other_cloth_triangle = fault.other_cloth_triangle;
+    reported.vertices_inside = fault.vertices_inside;
+    reported.inside_vertex = fault.inside_vertex;
+    return reported;
 }
 
 percale_start_move c_start_move(const StartMove& move) {

@@ -13,7 +13,7 @@ percale_energy c_energy(const StepEnergy& energy);
 percale_start_fault c_start_fault(const StartFault& fault);
 percale_start_move c_start_move(const StartMove& move);
 
-/// A line for what is in a plan, each begun by a word for what it tells.
+/// The entries of a plan, one a line; each line begins with a word for its kind.
 std::string plan_lines(const ScenePlan& plan);
 
 }  // namespace percale::c_interface

@@ -6,7 +6,7 @@
 
 namespace percale::c_interface {
 
-/// The rest shape that the settings of a cloth say. Throws SceneError where they say two, or where it does not fit the mesh.
+/// The rest shape in the settings of a cloth. Throws SceneError where they hold two, or where it does not fit the mesh.
 inline RestShape rest_shape(const TriangleMesh& mesh, const percale_cloth_settings& settings) {
     const char* name = &demanded(settings.name, "name");
     RestShape shape;

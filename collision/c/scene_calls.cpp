@@ -7,7 +7,7 @@
 #include "c/rest.h"
 #include "c/structs.h"
 
-// What a simulation of percale.h is made of.
+// Functions of percale.h for the contents of a simulation.
 
 using namespace percale::c_interface;
 

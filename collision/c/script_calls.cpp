@@ -1,7 +1,7 @@
 #include "c/handles.h"
 #include "c/structs.h"
 
-// What moves in a simulation of percale.h.
+// Functions of percale.h for what moves in a simulation.
 
 using namespace percale::c_interface;
 

@@ -38,8 +38,8 @@ percale_status set_by_number(const char* function, Handle* handle, const Options
 }
 
 template <class Handle, class Options>
-percale_status tell_option(const char* function, const Handle* handle, const Options& options, const char* key,
-                           const Buffer<char>& text) noexcept {
+percale_status report_option(const char* function, const Handle* handle, const Options& options, const char* key,
+                             const Buffer<char>& text) noexcept {
     return call(function, [&] {
         const auto& owner = demanded(handle, "the object").value;
         give_text(option_text(owner, option_of(options, &demanded(key, "key"))), text);
@@ -47,9 +47,9 @@ percale_status tell_option(const char* function, const Handle* handle, const Opt
 }
 
 template <class Options>
-percale_status describe(const char* function, const Options& options, std::size_t number, percale_option* told) noexcept {
+percale_status describe(const char* function, const Options& options, std::size_t number, percale_option* reported) noexcept {
     return call(function, [&] {
-        percale_option& place = known(told, "option");
+        percale_option& place = known(reported, "option");
         if (number >= options.size()) {
             throw percale::SceneError("option " + std::to_string(number),
                                       "options are 0 ... " + std::to_string(options.size() - 1));
@@ -80,7 +80,7 @@ percale_status percale_set_step_number(percale_step_settings* settings, const ch
 
 percale_status percale_step_option(const percale_step_settings* settings, const char* key, char* text, size_t capacity,
                                    size_t* count) {
-    return tell_option(__func__, settings, percale::step_options(), key, {text, capacity, count});
+    return report_option(__func__, settings, percale::step_options(), key, {text, capacity, count});
 }
 
 size_t percale_step_option_count(void) { return percale::step_options().size(); }
@@ -110,7 +110,7 @@ percale_status percale_set_fabric_number(percale_fabric* fabric, const char* key
 }
 
 percale_status percale_fabric_option(const percale_fabric* fabric, const char* key, char* text, size_t capacity, size_t* count) {
-    return tell_option(__func__, fabric, percale::fabric_options(), key, {text, capacity, count});
+    return report_option(__func__, fabric, percale::fabric_options(), key, {text, capacity, count});
 }
 
 size_t percale_fabric_option_count(void) { return percale::fabric_options().size(); }

@@ -8,7 +8,7 @@ using namespace percale::c_interface;
 
 namespace {
 
-/// Keeps what is wrong with a start that is refused.
+/// Keeps the fault of a start that is refused.
 template <class Work>
 void with_start_fault(percale_simulation& of, Work work) {
     try {
@@ -28,9 +28,9 @@ percale_status percale_prepare(percale_simulation* simulation) {
 percale_status percale_start_repair(const percale_simulation* simulation, percale_start_move* moves, size_t capacity,
                                     size_t* count) {
     return call_on(__func__, simulation, [&](const percale_simulation& of) {
-        std::vector<percale_start_move> told;
-        for (const percale::StartMove& move : of.simulation.start_repair()) told.push_back(c_start_move(move));
-        give_items<percale_start_move>(told, {moves, capacity, count});
+        std::vector<percale_start_move> reported;
+        for (const percale::StartMove& move : of.simulation.start_repair()) reported.push_back(c_start_move(move));
+        give_items<percale_start_move>(reported, {moves, capacity, count});
     });
 }
 

@@ -97,9 +97,9 @@ percale_option default_struct() {
 }
 
 int counted_items(std::size_t count, const char* name) {
-    const std::size_t most = std::numeric_limits<int>::max();
-    if (count > most) {
-        throw SceneError(name, std::to_string(count) + " items are more than the " + std::to_string(most) + " that there may be");
+    const std::size_t max = std::numeric_limits<int>::max();
+    if (count > max) {
+        throw SceneError(name, std::to_string(count) + " items are more than the " + std::to_string(max) + " that there may be");
     }
     return static_cast<int>(count);
 }

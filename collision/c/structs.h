@@ -8,7 +8,7 @@
 #include "c/call.h"
 #include "percale/mesh.h"
 
-// From the types of C to those of C++ and back.
+// Conversions from the types of C to those of C++ and back.
 namespace percale::c_interface {
 
 // Views hand out Vec3 and Triangle as plain numbers in a row.
@@ -56,7 +56,7 @@ Struct& known(Struct* given, const char* name) {
     return *given;
 }
 
-/// The same of settings that may be left out.
+/// The same for settings that may be left out.
 template <class Struct>
 Struct known_or_default(const Struct* given, const char* name) {
     return given == nullptr ? default_struct<Struct>() : known(given, name);
@@ -92,7 +92,7 @@ std::vector<Vec3> vectors_of(const double* numbers, std::size_t count, const cha
 Pose pose_of(const percale_pose& pose);
 percale_pose c_pose(const Pose& pose);
 
-/// A buffer of the caller: how many items there are goes to *count; NULL without capacity asks for that alone.
+/// A buffer of the caller: the number of items goes to *count; NULL without capacity requests that alone.
 template <class Item>
 struct Buffer {
     Item* items;

@@ -2,7 +2,7 @@
 #include "c/report_structs.h"
 #include "c/structs.h"
 
-// What a simulation of percale.h is like now.
+// Functions of percale.h for the present state of a simulation.
 
 using namespace percale::c_interface;
 
@@ -21,34 +21,34 @@ const double* view_of(const char* function, const percale_simulation* simulation
 }
 
 template <class Value, class Look>
-percale_status tell(const char* function, const percale_simulation* simulation, Value* place, Look look) noexcept {
+percale_status report(const char* function, const percale_simulation* simulation, Value* place, Look look) noexcept {
     return call_on(function, simulation,
                    [&](const percale_simulation& of) { demanded(place, "the place for the result") = look(of.simulation); });
 }
 
 percale_contact_load c_load(const percale::ContactLoad& load) {
-    percale_contact_load told{};
-    told.vertex = load.vertex;
-    told.obstacle = load.obstacle;
-    write_vector(load.normal, told.normal);
-    write_vector(load.friction, told.friction);
-    write_vector(load.cloth_point, told.cloth_point);
-    write_vector(load.obstacle_point, told.obstacle_point);
-    return told;
+    percale_contact_load reported{};
+    reported.vertex = load.vertex;
+    reported.obstacle = load.obstacle;
+    write_vector(load.normal, reported.normal);
+    write_vector(load.friction, reported.friction);
+    write_vector(load.cloth_point, reported.cloth_point);
+    write_vector(load.obstacle_point, reported.obstacle_point);
+    return reported;
 }
 
 }  // namespace
 
 percale_status percale_time(const percale_simulation* simulation, double* time) {
-    return tell(__func__, simulation, time, [](const auto& of) { return of.time(); });
+    return report(__func__, simulation, time, [](const auto& of) { return of.time(); });
 }
 
 percale_status percale_cloth_count(const percale_simulation* simulation, int* count) {
-    return tell(__func__, simulation, count, [](const auto& of) { return of.cloth_count(); });
+    return report(__func__, simulation, count, [](const auto& of) { return of.cloth_count(); });
 }
 
 percale_status percale_vertex_count(const percale_simulation* simulation, int cloth, size_t* count) {
-    return tell(__func__, simulation, count, [&](const auto& of) { return of.masses({cloth}).size(); });
+    return report(__func__, simulation, count, [&](const auto& of) { return of.masses({cloth}).size(); });
 }
 
 percale_status percale_positions(const percale_simulation* simulation, int cloth, double* positions, size_t capacity,
@@ -106,7 +106,7 @@ const double* percale_masses_view(const percale_simulation* simulation, int clot
 }
 
 percale_status percale_obstacle_pose(const percale_simulation* simulation, int obstacle, percale_pose* pose) {
-    return tell(__func__, simulation, pose, [&](const auto& of) { return c_pose(of.obstacle_pose({obstacle})); });
+    return report(__func__, simulation, pose, [&](const auto& of) { return c_pose(of.obstacle_pose({obstacle})); });
 }
 
 percale_status percale_obstacle_shape(const percale_simulation* simulation, int obstacle, double* vertices, size_t capacity,
@@ -122,20 +122,20 @@ percale_status percale_energy_now(const percale_simulation* simulation, percale_
 }
 
 percale_status percale_largest_strain(const percale_simulation* simulation, int cloth, double* strain) {
-    return tell(__func__, simulation, strain,
-                [&](const auto& of) { return cloth == -1 ? of.largest_strain() : of.largest_strain({cloth}); });
+    return report(__func__, simulation, strain,
+                  [&](const auto& of) { return cloth == -1 ? of.largest_strain() : of.largest_strain({cloth}); });
 }
 
 percale_status percale_largest_speed(const percale_simulation* simulation, double* speed) {
-    return tell(__func__, simulation, speed, [](const auto& of) { return of.largest_speed(); });
+    return report(__func__, simulation, speed, [](const auto& of) { return of.largest_speed(); });
 }
 
 percale_status percale_contact_loads(const percale_simulation* simulation, int cloth, percale_contact_load* loads,
                                      size_t capacity, size_t* count) {
     return call_on(__func__, simulation, [&](const percale_simulation& of) {
-        std::vector<percale_contact_load> told;
-        for (const percale::ContactLoad& load : of.simulation.contact_loads({cloth})) told.push_back(c_load(load));
-        give_items<percale_contact_load>(told, {loads, capacity, count});
+        std::vector<percale_contact_load> reported;
+        for (const percale::ContactLoad& load : of.simulation.contact_loads({cloth})) reported.push_back(c_load(load));
+        give_items<percale_contact_load>(reported, {loads, capacity, count});
     });
 }
 
@@ -147,8 +147,8 @@ percale_status percale_force_on(const percale_simulation* simulation, int obstac
 
 percale_status percale_torque_on(const percale_simulation* simulation, int obstacle, const double* about, double* torque) {
     return call_on(__func__, simulation, [&](const percale_simulation& of) {
-        const percale::Vec3 told = of.simulation.torque_on({obstacle}, vector_of(about, "about"));
-        write_vector(told, &demanded(torque, "torque"));
+        const percale::Vec3 reported = of.simulation.torque_on({obstacle}, vector_of(about, "about"));
+        write_vector(reported, &demanded(torque, "torque"));
     });
 }
 
@@ -161,13 +161,13 @@ percale_status percale_impulse_on(const percale_simulation* simulation, int obst
 percale_status percale_angular_impulse_on(const percale_simulation* simulation, int obstacle, const double* about,
                                           double* impulse) {
     return call_on(__func__, simulation, [&](const percale_simulation& of) {
-        const percale::Vec3 told = of.simulation.angular_impulse_on({obstacle}, vector_of(about, "about"));
-        write_vector(told, &demanded(impulse, "impulse"));
+        const percale::Vec3 reported = of.simulation.angular_impulse_on({obstacle}, vector_of(about, "about"));
+        write_vector(reported, &demanded(impulse, "impulse"));
     });
 }
 
 percale_status percale_meets(const percale_simulation* simulation, int first, int second, int* meet) {
-    return tell(__func__, simulation, meet, [&](const auto& of) { return of.meets({first}, {second}) ? 1 : 0; });
+    return report(__func__, simulation, meet, [&](const auto& of) { return of.meets({first}, {second}) ? 1 : 0; });
 }
 
 percale_status percale_seam_gaps(const percale_simulation* simulation, int seam, double* gaps, size_t capacity, size_t* count) {
@@ -177,5 +177,5 @@ percale_status percale_seam_gaps(const percale_simulation* simulation, int seam,
 }
 
 percale_status percale_state_hash(const percale_simulation* simulation, uint64_t* hash) {
-    return tell(__func__, simulation, hash, [](const auto& of) { return of.state_hash(); });
+    return report(__func__, simulation, hash, [](const auto& of) { return of.state_hash(); });
 }

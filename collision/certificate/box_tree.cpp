@@ -93,7 +93,7 @@ int BoxTree::partition(int first, int count) {
     const auto begin = order_.begin() + first, end = begin + count;
     const auto cut = std::partition(begin, end, [&](int item) { return coordinate(item) < middle; });
     const int left = static_cast<int>(cut - begin);
-    if (tolerances::most_uneven_split * std::min(left, count - left) >= count) return left;
+    if (tolerances::max_uneven_split * std::min(left, count - left) >= count) return left;
     std::nth_element(begin, begin + count / 2, end, [&](int a, int b) { return coordinate(a) < coordinate(b); });
     return count / 2;
 }

@@ -52,12 +52,12 @@ public:
     void walk_overlaps(const BoxTree& other, Visit&& visit) const {
         walk_overlaps(other, visit, [] { return false; });
     }
-    /// The same until enough() is true, which is asked now and then.
+    /// The same until enough() is true, which is tested now and then.
     template <class Visit, class Enough>
     void walk_overlaps(const BoxTree& other, Visit&& visit, Enough&& enough) const;
 
-    /// The smallest of item_distance(item) over all items, pruned by box_distance(box), a lower bound for every item in the
-    /// box; item and value. {-1, limit} where no item lies within `limit`.
+    /// The smallest of item_distance(item) over all items, pruned by box_distance(box), a lower bound for every item in the box.
+    /// Returns item and value, or {-1, limit} where no item lies within `limit`.
     template <class BoxDistance, class ItemDistance>
     std::pair<int, double> nearest(double limit, BoxDistance&& box_distance, ItemDistance&& item_distance) const;
 

@@ -22,10 +22,10 @@ namespace {
 using namespace certificate;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// A bound times this excuses a pair from measurement.
+// A distance of two boxes times this is a lower bound for their items, rounding included.
 constexpr double below_bound = 1.0 - tolerances::bound_slack;
 
-/// Of the caller's.
+/// The caller's request to stop.
 struct Cancel {
     const std::atomic<bool>* wish = nullptr;
 
@@ -83,7 +83,7 @@ std::vector<bool> find_pairs(const Surface& cloth, const Surface& obstacle, cons
     return free;
 }
 
-/// Cloth vertices joined by triangles that share no point with the obstacle: each group lies on one side of it.
+/// Groups of cloth vertices joined by triangles that share no point with the obstacle: each group lies on one side of it.
 class Groups {
 public:
     Groups(const TriangleMesh& cloth, const std::vector<bool>& free) : parent_(cloth.vertices.size()) {
@@ -163,7 +163,8 @@ bool share_a_vertex(const Triangle& a, const Triangle& b) {
     return std::any_of(a.begin(), a.end(), [&](int v) { return std::find(b.begin(), b.end(), v) != b.end(); });
 }
 
-/// Whether what b does not share of a lies strictly on one side of a's plane: then they share their common vertices only.
+/// Whether all vertices of b that a does not share lie strictly on one side of a's plane: then they share only their common
+/// vertices.
 bool one_sided(const Triangle& a, const Triangle& b, const TriangleMesh& mesh) {
     const auto& x = mesh.vertices;
     int below = 0, above = 0, on = 0;
@@ -177,7 +178,7 @@ bool one_sided(const Triangle& a, const Triangle& b, const TriangleMesh& mesh) {
     return on == 0 && (below == 0) != (above == 0);
 }
 
-/// How two triangles of one mesh meet, apart from the vertices that they share; touching only where they share none.
+/// How two triangles of one mesh meet, apart from the vertices that they share. They are touching only where they share none.
 Overlap overlap_within(const TriangleMesh& mesh, const Surface& surface, int i, int j) {
     const Triangle &a = mesh.triangles[i], &b = mesh.triangles[j];
     const bool neighbours = share_a_vertex(a, b);

@@ -10,7 +10,7 @@ namespace percale::certificate {
 namespace {
 
 constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
-constexpr int most_terms = 96;  // 24 triple products of 4 terms each
+constexpr int max_terms = 96;  // 24 triple products of 4 terms each
 
 // Coordinates are brought to this power of two before exact arithmetic: three of them multiply to < 2^990, and the last bit
 // of a product of three coordinates >= 2^-305 is >= 2^-1071, so no term overflows or loses bits below 2^-1074.
@@ -50,7 +50,7 @@ public:
     int sign() const { return count_ == 0 ? 0 : sign_of(term_[count_ - 1]); }
 
 private:
-    std::array<double, most_terms> term_;
+    std::array<double, max_terms> term_;
     int count_ = 0;
 };
 

@@ -35,7 +35,7 @@ bool has_area(const TriangleMesh& mesh, const Triangle& t) {
     return projection_axis(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]) >= 0;
 }
 
-/// Half-edges by their lower vertex: counting sort, since nothing else of the check is more than linear.
+/// Half-edges by their lower vertex: a counting sort, so that the whole check is linear.
 struct HalfEdge {
     int upper;
     int sense;  // 1 from the lower vertex to the upper, -1 back

@@ -16,7 +16,7 @@ std::vector<int> closed_vertices(std::size_t count, std::span<const Stitch> stit
 /// along it.
 class SewnTriangles {
 public:
-    /// Throws SceneError for a stitch of a vertex that there is not.
+    /// Throws SceneError for a stitch of a vertex that does not exist.
     SewnTriangles(const TriangleMesh& mesh, std::span<const Stitch> stitches);
 
     bool together(int first, int second) const;

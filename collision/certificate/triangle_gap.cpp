@@ -30,8 +30,8 @@ double foot_distance(const Vec3& point, const Corners& t) {
     return (ap - (beta / area2) * ab - (gamma / area2) * ac).norm();
 }
 
-/// Distance at the common perpendicular of two segments, at parameters clamped to both; parallel segments are left to their end
-/// points.
+/// Distance at the common perpendicular of two segments, at parameters clamped to both; parallel segments are covered by their
+/// end points.
 double edge_distance(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const Vec3 u = b - a, v = d - c, w = a - c;
     const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm();

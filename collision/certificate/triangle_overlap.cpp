@@ -22,14 +22,14 @@ Signs sides(const Corners& corners, const Corners& plane) {
 
 int projection_axis(const Corners& t) { return certificate::projection_axis(t[0], t[1], t[2]); }
 
-/// Segments on one common line, or points: their order along the line is the lexicographic order of coordinates.
+/// For segments on one common line, or points: their order along the line is the lexicographic order of coordinates.
 bool collinear_segments_meet(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
     const auto [low_a, high_a] = std::minmax(p, q, lexicographically_less);
     const auto [low_b, high_b] = std::minmax(r, s, lexicographically_less);
     return !lexicographically_less(high_a, low_b) && !lexicographically_less(high_b, low_a);
 }
 
-/// Segments in a plane that projects injectively along `axis`, not all four points on one line.
+/// For segments in a plane that projects injectively along `axis`, not all four points on one line.
 bool planar_segments_meet(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s, int axis) {
     return orient2d(p, q, r, axis) * orient2d(p, q, s, axis) <= 0 && orient2d(r, s, p, axis) * orient2d(r, s, q, axis) <= 0;
 }
@@ -76,15 +76,15 @@ Overlap touching_or_disjoint(const Corners& a, const Corners& b) {
     return share_points(a, b) ? Overlap::touching : Overlap::disjoint;
 }
 
-/// Corner that is alone on its open side of the other's plane; the other two lie on the closed other side.
+/// The corner that is alone on its open side of the other's plane; the other two lie on the closed other side.
 int lone_corner(const Signs& signs) {
     const int sign = std::count(signs.begin(), signs.end(), 1) == 1 ? 1 : -1;
     return static_cast<int>(std::find(signs.begin(), signs.end(), sign) - signs.begin());
 }
 
-/// Both straddle the other's plane. The two edges at the lone corner of each cut the common line L of the planes in the two
-/// ends of its segment on L. The volume spanned by an edge of a and one of b is the signed distance of their cuts on L times a
-/// factor whose sign is the same for all four pairs, so the segments overlap where two volumes differ in sign.
+/// Each triangle straddles the other's plane. The two edges at the lone corner of each cut the common line L of the planes in the
+/// two ends of its segment on L. The volume spanned by an edge of a and one of b is the signed distance of their intersections
+/// with L times a factor whose sign is the same for all four pairs, so the segments overlap where two volumes differ in sign.
 Overlap classify_transversal(const Corners& a, const Signs& side_a, const Corners& b, const Signs& side_b) {
     const int i = lone_corner(side_a), j = lone_corner(side_b);
     bool above = false, below = false, zero = false;

@@ -9,7 +9,7 @@ namespace percale::certificate {
 
 using Corners = std::array<Vec3, 3>;  // m
 
-/// By x, then y, then z.
+/// Compares by x, then y, then z.
 inline bool lexicographically_less(const Vec3& a, const Vec3& b) {
     return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }

@@ -37,7 +37,7 @@ public:
         }
     }
 
-    /// From the leaves to the root, the tree's shape as it is.
+    /// Refits from the leaves to the root; the tree's shape stays.
     void refit() override {
         model_.beginReplaceModel();
         for (const Vec3& x : vertices_) model_.replaceVertex(x);

@@ -11,8 +11,8 @@
 namespace percale {
 namespace {
 
-/// Numbers the edges of triangles and says which triangle owns each: of those that have it the one of the lowest index. Were it
-/// the one that comes first on the curve, it would follow the axes: a scene that is turned would have other contacts.
+/// Numbers the edges of triangles and says which triangle owns each: the one of the lowest index among those that have it. The
+/// first one on the curve would depend on the axes: a turned scene would have other contacts.
 class EdgeOwners {
 public:
     explicit EdgeOwners(std::span<const Triangle> triangles)
@@ -36,7 +36,8 @@ public:
     }
 
 private:
-    using Side = std::tuple<std::pair<int, int>, std::size_t, std::size_t>;  // an edge's vertices; where: a triangle and k
+    using Side = std::tuple<std::pair<int, int>, std::size_t, std::size_t>;  // an edge's vertices; a triangle, and k of the edge
+                                                                             // in it
 
     /// The sides of one edge follow each other, the owner's first.
     void add(std::span<const Triangle> triangles, std::span<const Side> sides, std::size_t i) {
@@ -59,7 +60,7 @@ private:
     std::vector<std::array<int, 3>> across_;
 };
 
-/// Gives vertices and edges to the first cluster that asks for them.
+/// Assigns vertices and edges to the first cluster that claims them.
 class Ownership {
 public:
     Ownership(std::size_t vertices, std::span<const Triangle> triangles)

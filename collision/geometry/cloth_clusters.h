@@ -16,10 +16,10 @@ struct ClothCluster {
     std::vector<int> all_vertices;          // of its triangles, owned or not
 };
 
-/// Cloth features grouped by nearness along the order of the triangles' centres on a space-filling (Morton) curve of `positions`.
-/// `edge_owner_bits[t]` has bit k set if triangle t owns its edge k (corners k, k + 1): of those that have the edge the one of
-/// the lowest index, however the cloth is turned. The two vertices of an edge come in that triangle's order. `across[t][k]` is
-/// the corner off that edge of the other triangle that has it; -1: there is none.
+/// Cloth features grouped by the order of the triangles' centres on a space-filling (Morton) curve of `positions`.
+/// `edge_owner_bits[t]` has bit k set if triangle t owns its edge k (corners k, k + 1): the owner is the triangle of the lowest
+/// index that has the edge, however the cloth is turned. The two vertices of an edge are in that triangle's order. `across[t][k]`
+/// is the corner opposite that edge in the other triangle that has it; -1: there is none.
 struct ClothClusters {
     std::vector<ClothCluster> clusters;
     std::vector<unsigned char> edge_owner_bits;
@@ -28,7 +28,7 @@ struct ClothClusters {
 
 ClothClusters make_clusters(std::span<const Triangle> triangles, std::span<const Vec3> positions);
 
-/// The same for an order of the triangles that is known: that of the clusters' triangles, one cluster after the other.
+/// The same for a known order of the triangles: that of the clusters' triangles, one cluster after the other.
 ClothClusters make_clusters(std::span<const Triangle> triangles, std::size_t vertices, std::span<const int> order);
 
 }  // namespace percale

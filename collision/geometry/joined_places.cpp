@@ -22,12 +22,12 @@ struct CellHash {
     }
 };
 
-/// Places, by cells much larger than what joins.
+/// Places, stored by cells much larger than the distance that joins.
 class Places {
 public:
     explicit Places(double rounding) : rounding_(rounding), cell_(tolerances::cell_of_joined_places * rounding) {}
 
-    /// The first of the places within rounding of x, which is one from now on.
+    /// The first of the places within rounding of x; x becomes a place if there is none.
     Vec3 first_at(const Vec3& x) {
         // x itself and, where it is near a cell's side, the neighbours there.
         for (int corner = 0; corner < 8; ++corner) {

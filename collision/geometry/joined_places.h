@@ -7,9 +7,9 @@
 
 namespace percale {
 
-/// Positions in which vertices of these triangles that lie within rounding of each other lie in one place, that of the first:
-/// apart by less than coordinates have digits they would be apart in a direction that nothing means, and contact would push with
-/// forces that drown all others. What is joined touches, and is taken apart as such.
+/// Positions in which vertices of these triangles that lie within rounding of each other have one place, that of the first. A
+/// smaller gap than coordinates resolve would have a meaningless direction, along which contact would push with forces that
+/// exceed all others. Joined vertices touch, and are untangled as such.
 std::vector<Vec3> joined_places(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
 }  // namespace percale

@@ -24,7 +24,7 @@ void support(const void* points, const ccd_vec3_t* direction, ccd_vec3_t* result
     ccdVec3Set(result, x.x(), x.y(), x.z());
 }
 
-/// Of the largest distance from its first point, m.
+/// The largest distance of a point from the first one, m.
 double extent(Points points) {
     double square = 0.0;
     for (const Vec3& x : points) square = std::max(square, (x - points[0]).squaredNorm());
@@ -42,16 +42,16 @@ std::optional<HullOverlap> hull_overlap(Points first, Points second) {
     ccd_t ccd;
     CCD_INIT(&ccd);
     ccd.support1 = ccd.support2 = support;
-    // At the library's own tolerance depths are wrong by centimetres, and without a limit it may not come to an end.
+    // At the library's own tolerance depths are wrong by centimetres, and without a limit it may not end.
     ccd.epa_tolerance = tolerances::hull_depth * std::max(extent(first), extent(second));
-    ccd.max_iterations = tolerances::most_hull_iterations;
+    ccd.max_iterations = tolerances::max_hull_iterations;
     ccd_real_t depth = 0.0;
     ccd_vec3_t axis, place;
     if (ccdGJKPenetration(&first, &second, &ccd, &depth, &axis, &place) != 0) return std::nullopt;
     Vec3 direction(axis.v[0], axis.v[1], axis.v[2]);
     if (!(direction.norm() > 0.0)) return std::nullopt;
     direction.normalize();
-    // The supports along the direction give a depth that is enough whatever the polytope's error.
+    // The supports along the direction give a sufficient depth, whatever the polytope's error.
     const double ahead = exit_distance(first, second, direction), back = exit_distance(first, second, -direction);
     if (ahead <= back) return HullOverlap{.depth = ahead, .direction = direction};
     return HullOverlap{.depth = back, .direction = -direction};

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/cut_floor.h"
+#include "geometry/clamp_floor.h"
 #include "geometry/triangle_distance.h"
 #include "tolerances.h"
 
@@ -16,7 +16,7 @@ double squared_distance(const std::array<Vec3, 4>& x, PairShape shape) {
     return closest_on_edges(x[0], x[1], x[2], x[3]).distance_squared;
 }
 
-/// A bound of the relative speed of any two points of the pair, once the mean motion is taken off.
+/// A bound of the relative speed of any two points of the pair after the mean motion is subtracted.
 double largest_approach(const std::array<Vec3, 4>& motion, PairShape shape) {
     const auto length = [&](int i) { return motion[i].norm(); };
     if (shape == PairShape::point_triangle) return length(0) + std::max({length(1), length(2), length(3)});
@@ -25,7 +25,7 @@ double largest_approach(const std::array<Vec3, 4>& motion, PairShape shape) {
 
 }  // namespace
 
-double safe_time(const MovingFour& four, PairShape shape, double floor, double latest) {
+double time_of_impact_lower_bound(const MovingFour& four, PairShape shape, double floor, double latest) {
     std::array<Vec3, 4> x = four.from, motion;
     Vec3 mean = Vec3::Zero();
     for (int i = 0; i < 4; ++i) mean += 0.25 * (four.to[i] - four.from[i]);
@@ -40,7 +40,7 @@ double safe_time(const MovingFour& four, PairShape shape, double floor, double l
     const double first = clearance();
     if (!(first > 0.0)) return 0.0;
     double time = 0.0, left = first;
-    for (int advance = 0; advance < tolerances::most_advances; ++advance) {
+    for (int advance = 0; advance < tolerances::max_advances; ++advance) {
         const double next = time + (1.0 - tolerances::clearance_left) * left / speed;
         if (next >= latest) return latest;
         for (int i = 0; i < 4; ++i) x[i] = four.from[i] + next * motion[i];
@@ -59,7 +59,7 @@ double rounding_floor(const MovingFour& four) {
     return tolerances::rounding_of_coordinates * std::numeric_limits<double>::epsilon() * largest;
 }
 
-double floor_of_cut(const MovingFour& four, double distance, double thickness) {
+double clamped_distance(const MovingFour& four, double distance, double thickness) {
     return std::max(floor_below(distance, thickness), rounding_floor(four));
 }
 

@@ -13,20 +13,21 @@ struct MovingFour {
 
 enum class PairShape { point_triangle, edge_edge };  // point 0 against 1 2 3; 0 1 against 2 3
 
-/// A time in [0, latest] up to which the distance is proven to stay above `floor` (m, below the distance at the start):
-/// `latest` if that holds throughout, else a time at which little more than a tenth of the starting clearance is left, or an
-/// earlier one where a clearance that is tiny against the displacement would take more than 500 advances. Additive conservative
-/// advancement with thickness (Li, Kaufman and Jiang 2021): no roots, hence no missed coplanar or parallel hits.
-double safe_time(const MovingFour& four, PairShape shape, double floor, double latest);
+/// A time in [0, latest] up to which the distance is proven to stay above `floor` (m, below the distance at the start): `latest`
+/// if that holds throughout, else a time at which little more than a tenth of the starting clearance is left, or an earlier one
+/// where a clearance that is tiny against the displacement would take more than 500 advances. Additive conservative advancement
+/// with thickness (Li, Kaufman and Jiang 2021): it solves for no roots, hence it misses no coplanar or parallel hits.
+double time_of_impact_lower_bound(const MovingFour& four, PairShape shape, double floor, double latest);
 
 /// m, what rounding may add to or take from a distance of two features at these coordinates. A floor below it proves nothing.
 double rounding_floor(const MovingFour& four);
 
-/// The distance that a cut leaves of `distance`: `floor_below`, but what rounding may change at the least.
-double floor_of_cut(const MovingFour& four, double distance, double thickness);
+/// The distance that a clamp leaves of `distance`, m: the larger of `floor_below` and `rounding_floor`.
+double clamped_distance(const MovingFour& four, double distance, double thickness);
 
-/// How far the points of one side (bits of `side`) are beyond all others along the unit vector `direction`, at a time. Points on
-/// straight lines: from a time to another it is never less than the lesser of the two, and the distance is never less than it.
+/// How far the points of one side (bits of `side`) are beyond all others along the unit vector `direction`, at a time, m. As
+/// points move on straight lines, it is never less between two times than the smaller of the two values, and the distance is
+/// never less than it.
 double gap_along(const MovingFour& four, unsigned side, const Vec3& direction, double time);
 
 }  // namespace percale

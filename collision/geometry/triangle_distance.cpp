@@ -41,8 +41,8 @@ PointTriangle on_segment(const Vec3& p, const Vec3& from, const Vec3& to, int co
     return at_edge(p, from, to, projection / length, corner);
 }
 
-/// For triangles so narrow that products of dot products have no digits of the area left: weights by cross products, which lose
-/// half as many, and the edges where these do not agree on the inside.
+/// For triangles so narrow that products of dot products retain no digits of the area: weights come from cross products, which
+/// lose half as many digits, and from the edges where these disagree about the inside.
 PointTriangle on_sliver(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
     PointTriangle best = on_segment(p, a, b, 0);
     for (const PointTriangle& other : {on_segment(p, b, c, 1), on_segment(p, c, a, 2)}) {
@@ -66,7 +66,7 @@ PointTriangle closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, c
     const double d3 = ab.dot(bp), d4 = ac.dot(bp);
     if (d3 >= 0.0 && d4 <= d3) return at_vertex(p, b, 1);
     const double vc = d1 * d4 - d3 * d2;
-    // An edge without length has d1 = d3; the others then are one.
+    // An edge without length has d1 = d3; the other two edges then coincide.
     if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 && d1 > d3) return at_edge(p, a, b, d1 / (d1 - d3), 0);
     const Vec3 cp = p - c;
     const double d5 = ab.dot(cp), d6 = ac.dot(cp);
@@ -86,8 +86,8 @@ PointTriangle closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, c
 EdgeEdge closest_on_edges(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
     const Vec3 u = q - p, v = b - a, r = p - a;
     const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), ur = u.dot(r), vr = v.dot(r);
-    // Where the lines are closest, by cross products: uu vv - uv^2 has no digits left for angles below 1e-8. For parallel lines
-    // any s will do, the clamping below finds the closest t and then s again.
+    // The closest points of the lines come from cross products: uu vv - uv^2 has no digits left for angles below 1e-8. For
+    // parallel lines any s is valid, and the clamping below finds the closest t and then s again.
     const Vec3 normal = u.cross(v);
     const double area = normal.squaredNorm();
     double s = area > 0.0 ? std::clamp(normal.dot(v.cross(r)) / area, 0.0, 1.0) : 0.0;

@@ -29,7 +29,7 @@ bool stays_above(const PackHull& hull, std::span<const int> vertices, const std:
     });
 }
 
-/// The middle of all means, and what is farthest from it.
+/// Sets the middle of all means, and the largest deviation from it.
 void set_drift(ClusterList& list, std::span<const PatchMotion> motions) {
     list.drift = Vec3::Zero();
     list.spread = 0.0;
@@ -55,8 +55,8 @@ void ListedPacks::add(int cloth_feature, int number, double apart, double thickn
     at.push_back({.feature = cloth_feature, .number = static_cast<unsigned>(number)});
 }
 
-void ListedPacks::activate(std::size_t i, unsigned lane, double thickness) {
-    at[i].standing |= 1U << lane & 0xffU;
+void ListedPacks::make_persistent(std::size_t i, unsigned lane, double thickness) {
+    at[i].persistent |= 1U << lane & 0xffU;
     wake[i] = below(static_cast<double>(reach[i]) - thickness);
 }
 
@@ -72,7 +72,7 @@ CandidateLists::CandidateLists(std::span<const Triangle> triangles, std::span<co
                      {.lists = {}, .seen = {positions.begin(), positions.end()}, .anchor = {}}) {}
 
 CandidateLists::CandidateLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
-                               ClothClusters clusters, ListsMemory memory)
+                               ClothClusters clusters, CandidateListsState memory)
     : triangles_(triangles.begin(), triangles.end()),
       thickness_(vertex_thickness.begin(), vertex_thickness.end()),
       clusters_(std::move(clusters)),
@@ -98,15 +98,15 @@ void CandidateLists::settle(const Obstacles& obstacles) {
     settled(memory_.room_version);
 }
 
-void CandidateLists::forget_standing(std::span<const unsigned char> moved) {
+void CandidateLists::forget_persistent(std::span<const unsigned char> moved) {
     for (ClusterList& list : memory_.lists) {
-        if (!list.has_standing) continue;
-        list.has_standing = false;
+        if (!list.has_persistent) continue;
+        list.has_persistent = false;
         for (ListedPack& pack : list.packs.at) {
-            if (pack.standing == 0) continue;
+            if (pack.persistent == 0) continue;
             const std::span<const int> cloth = list.features[pack.feature].vertices();
-            if (std::any_of(cloth.begin(), cloth.end(), [&](int vertex) { return moved[vertex]; })) pack.standing = 0;
-            list.has_standing = list.has_standing || pack.standing != 0;
+            if (std::any_of(cloth.begin(), cloth.end(), [&](int vertex) { return moved[vertex]; })) pack.persistent = 0;
+            list.has_persistent = list.has_persistent || pack.persistent != 0;
         }
     }
 }
@@ -203,18 +203,18 @@ void CandidateLists::set_displacements(const ClothMove& move, Workers* workers) 
     };
     const auto of_clusters = [&](std::size_t first, std::size_t last, int) {
         for (std::size_t i = first; i < last; ++i) {
-            double most = 0.0;
-            for (const int vertex : vertices_of(i)) most = std::max(most, displacement_[vertex]);
-            cluster_displacement_[i] = most;
+            double max = 0.0;
+            for (const int vertex : vertices_of(i)) max = std::max(max, displacement_[vertex]);
+            cluster_displacement_[i] = max;
         }
     };
-    for_stretches(workers, displacement_.size(), tolerances::vertices_a_part, of_vertices);
-    for_stretches(workers, memory_.lists.size(), tolerances::clusters_a_pass, of_clusters);
+    parallel_for_chunks(workers, displacement_.size(), tolerances::vertices_a_part, of_vertices);
+    parallel_for_chunks(workers, memory_.lists.size(), tolerances::clusters_a_pass, of_clusters);
 }
 
-/// Whether all cloth stays away from all obstacles' boxes. One look at the distance allows for that displacement, so that cloth
-/// far away costs one pass over its vertices.
-bool CandidateLists::is_out_of_reach(const ClothMove& move, const Obstacles& obstacles, int version) {
+/// Whether all cloth stays away from all obstacles' boxes. The distance is measured once and permits displacements up to it, so
+/// that cloth far away costs one pass over its vertices.
+bool CandidateLists::is_far_from_obstacles(const ClothMove& move, const Obstacles& obstacles, int version) {
     const auto stays = [&] {
         const auto count = 3 * static_cast<long>(memory_.anchor.size());
         const auto displacement = [&](std::span<const Vec3> x) {
@@ -239,16 +239,16 @@ bool CandidateLists::is_out_of_reach(const ClothMove& move, const Obstacles& obs
 
 double CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles, Workers* workers) {
     const int version = total_version(obstacles);
-    if (is_out_of_reach(move, obstacles, version)) return 1.0;
+    if (is_far_from_obstacles(move, obstacles, version)) return 1.0;
     advance(move.from, move.fraction.from, obstacles, workers);
     set_displacements(move, workers);
     find_dirty(move, version, workers);
     if (dirty_.empty()) return 1.0;
-    standing_pairs_.clear();
-    for (const std::size_t i : dirty_) collect_standing(i, obstacles);
+    persistent_pairs_.clear();
+    for (const std::size_t i : dirty_) collect_persistent(i, obstacles);
     double fraction = 1.0;
     ClothMove covered = move;
-    while (!rebuild(covered, obstacles, fraction < tolerances::least_covered, workers)) {
+    while (!rebuild(covered, obstacles, fraction < tolerances::min_covered_fraction, workers)) {
         fraction *= 0.5;
         shortened_.resize(move.from.size());
         for (std::size_t i = 0; i < shortened_.size(); ++i) shortened_[i] = move.from[i] + fraction * (move.to[i] - move.from[i]);
@@ -256,16 +256,16 @@ double CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles, 
         set_displacements(covered, workers);
     }
     if (fraction < 1.0) set_displacements(move, workers);
-    activate_again(obstacles);
+    restore_persistent(obstacles);
     memory_.empty =
         std::all_of(memory_.lists.begin(), memory_.lists.end(), [](const ClusterList& list) { return list.features.empty(); });
     return fraction;
 }
 
-/// The clusters whose lists are not good for the move; from now on they count as lists of this version.
+/// Finds the clusters whose lists are not valid for the move; from now on they count as lists of this version.
 void CandidateLists::find_dirty(const ClothMove& move, int version, Workers* workers) {
     uncovered_.resize(memory_.lists.size());
-    for_stretches(workers, uncovered_.size(), tolerances::clusters_a_pass, [&](std::size_t first, std::size_t last, int) {
+    parallel_for_chunks(workers, uncovered_.size(), tolerances::clusters_a_pass, [&](std::size_t first, std::size_t last, int) {
         for (std::size_t i = first; i < last; ++i) uncovered_[i] = covers(i, move, version) ? 0 : 1;
     });
     dirty_.clear();
@@ -277,14 +277,14 @@ void CandidateLists::find_dirty(const ClothMove& move, int version, Workers* wor
 }
 
 void CandidateLists::empty_dirty(const ClothMove& move) {
-    asked_.clear();
+    query_boxes_.clear();
     for (const std::size_t i : dirty_) {
         ClusterList& list = memory_.lists[i];
         list.features.clear();
         list.packs.clear();
-        list.has_standing = false;
+        list.has_persistent = false;
         list.travel = list.cloth_travel = 0.0;
-        asked_.push_back(set_boxes(i, move));
+        query_boxes_.push_back(set_boxes(i, move));
     }
 }
 
@@ -295,28 +295,28 @@ void CandidateLists::set_smallest_bounds(ClusterList& list) {
     list.quiet_until = static_cast<double>(pack_kernels().smallest(packs.wake.data(), count));
 }
 
-/// Builds the dirty lists anew; false (and lists of no use) if they would hold too many packs, unless `whatever_it_takes`.
+/// Rebuilds the dirty lists; returns false, with unusable lists, if they would hold too many packs, unless `whatever_it_takes`.
 bool CandidateLists::rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes, Workers* workers) {
-    const long most = whatever_it_takes
-                          ? std::numeric_limits<long>::max()
-                          : tolerances::most_packs + tolerances::most_packs_per_vertex * static_cast<long>(displacement_.size());
+    const long max = whatever_it_takes
+                         ? std::numeric_limits<long>::max()
+                         : tolerances::max_packs + tolerances::max_packs_per_vertex * static_cast<long>(displacement_.size());
     empty_dirty(move);
     found_.resize(obstacles.size());
-    for (std::size_t number = 0; number < obstacles.size(); ++number) obstacles[number]->find(asked_, found_[number]);
+    for (std::size_t number = 0; number < obstacles.size(); ++number) obstacles[number]->find(query_boxes_, found_[number]);
     builds_.resize(workers ? workers->threads() : 1);
-    // Once there are too many, there are too many whoever counts them and in whatever order.
+    // Whether there are too many does not depend on the thread or the order in which they are counted.
     std::atomic<long> listed = 0;
-    for_stretches(workers, dirty_.size(), tolerances::clusters_a_build, [&](std::size_t first, std::size_t last, int slot) {
+    parallel_for_chunks(workers, dirty_.size(), tolerances::clusters_a_build, [&](std::size_t first, std::size_t last, int slot) {
         Build& build = builds_[slot];
         build.vertex_boxes.resize(displacement_.size());
         build.listed = 0;
-        for (std::size_t k = first; k < last && listed + build.listed <= most; ++k) build_list(k, move, obstacles, build);
+        for (std::size_t k = first; k < last && listed + build.listed <= max; ++k) build_list(k, move, obstacles, build);
         listed += build.listed;
     });
-    return listed <= most;
+    return listed <= max;
 }
 
-/// The list of dirty_[dirty].
+/// Builds the list of dirty_[dirty].
 void CandidateLists::build_list(std::size_t dirty, const ClothMove& move, const Obstacles& obstacles, Build& build) {
     const std::size_t cluster = dirty_[dirty];
     ClusterList& list = memory_.lists[cluster];
@@ -349,42 +349,42 @@ double CandidateLists::approach(std::size_t cluster, const ClothMove& move) cons
     return std::sqrt(square) + part * list.spread;
 }
 
-void CandidateLists::collect_standing(std::size_t cluster, const Obstacles& obstacles) {
+void CandidateLists::collect_persistent(std::size_t cluster, const Obstacles& obstacles) {
     const ClusterList& list = memory_.lists[cluster];
-    if (!list.has_standing) return;
+    if (!list.has_persistent) return;
     for (std::size_t i = 0; i < list.packs.size(); ++i) {
-        if (list.packs.at[i].standing == 0) continue;
+        if (list.packs.at[i].persistent == 0) continue;
         const ContactPair& feature = list.features[list.packs.at[i].feature];
         const FeaturePack& pack = obstacles[feature.obstacle]->packs().packs[list.packs.at[i].number];
-        for (unsigned standing = list.packs.at[i].standing; standing != 0; standing &= standing - 1) {
-            standing_pairs_.emplace_back(cluster, feature.with(pack, std::countr_zero(standing)));
+        for (unsigned persistent = list.packs.at[i].persistent; persistent != 0; persistent &= persistent - 1) {
+            persistent_pairs_.emplace_back(cluster, feature.with(pack, std::countr_zero(persistent)));
         }
     }
 }
 
-/// What was a contact in a list stays one in the list that replaces it.
-void CandidateLists::activate_again(const Obstacles& obstacles) {
-    for (const auto& [cluster, contact] : standing_pairs_) {
+/// A contact of a list stays one in the list that replaces it.
+void CandidateLists::restore_persistent(const Obstacles& obstacles) {
+    for (const auto& [cluster, contact] : persistent_pairs_) {
         ClusterList& list = memory_.lists[cluster];
         const int place = obstacles[contact.obstacle]->packs().place_of[static_cast<int>(contact.kind)][contact.feature];
         for (std::size_t f = 0; f < list.features.size(); ++f) {
             const ContactPair& pair = list.features[f];
             if (pair.kind == contact.kind && pair.cloth == contact.cloth && pair.obstacle == contact.obstacle)
-                activate(list, f, place);
+                make_persistent(list, f, place);
         }
     }
 }
 
-/// Makes standing the lane at a place of ObstaclePacks::place_of, if the feature is listed with its pack.
-void CandidateLists::activate(ClusterList& list, std::size_t feature, int place) const {
+/// Makes the lane at a place of ObstaclePacks::place_of persistent, if the feature is listed with its pack.
+void CandidateLists::make_persistent(ClusterList& list, std::size_t feature, int place) const {
     std::vector<ListedPack>& packs = list.packs.at;
     const auto first = std::partition_point(
         packs.begin(), packs.end(), [&](const ListedPack& pack) { return static_cast<std::size_t>(pack.feature) < feature; });
     for (std::size_t i = first - packs.begin(); i < packs.size() && static_cast<std::size_t>(packs[i].feature) == feature; ++i) {
         if (static_cast<int>(packs[i].number) != place / pack_lanes) continue;
-        list.packs.activate(i, place % pack_lanes, thickness_[list.features[feature].cloth[0]]);
+        list.packs.make_persistent(i, place % pack_lanes, thickness_[list.features[feature].cloth[0]]);
         list.quiet_until = std::min(list.quiet_until, static_cast<double>(list.packs.wake[i]));
-        list.has_standing = true;
+        list.has_persistent = true;
     }
 }
 
@@ -394,26 +394,27 @@ void CandidateLists::advance(std::span<const Vec3> positions, double fraction, c
     memory_.seen_fraction = fraction;
     if (part != 0.0) gone_.resize(moved_.size());
     constexpr std::size_t grain = tolerances::vertices_a_part;
-    most_moved_.assign(stretch_count(moved_.size(), grain), 0.0);
-    for_stretches(workers, moved_.size(), grain, [&](std::size_t first, std::size_t last, int) {
-        double most = 0.0;
+    max_moved_.assign(chunk_count(moved_.size(), grain), 0.0);
+    parallel_for_chunks(workers, moved_.size(), grain, [&](std::size_t first, std::size_t last, int) {
+        double max = 0.0;
         for (std::size_t i = first; i < last; ++i) {
             const Vec3 gone = positions[i] - memory_.seen[i];
             if (part != 0.0) gone_[i] = gone;
             moved_[i] = gone.squaredNorm();
-            most = std::max(most, moved_[i]);
+            max = std::max(max, moved_[i]);
         }
-        most_moved_[first / grain] = most;
-        if (most > 0.0) std::copy(positions.begin() + first, positions.begin() + last, memory_.seen.begin() + first);
+        max_moved_[first / grain] = max;
+        if (max > 0.0) std::copy(positions.begin() + first, positions.begin() + last, memory_.seen.begin() + first);
     });
-    const bool moved = std::any_of(most_moved_.begin(), most_moved_.end(), [](double most) { return most > 0.0; });
+    const bool moved = std::any_of(max_moved_.begin(), max_moved_.end(), [](double max) { return max > 0.0; });
     if (!moved && part == 0.0) return;
-    for_stretches(workers, memory_.lists.size(), tolerances::clusters_a_pass, [&](std::size_t first, std::size_t last, int) {
-        for (std::size_t i = first; i < last; ++i) advance_list(i, part);
-    });
+    parallel_for_chunks(workers, memory_.lists.size(), tolerances::clusters_a_pass,
+                        [&](std::size_t first, std::size_t last, int) {
+                            for (std::size_t i = first; i < last; ++i) advance_list(i, part);
+                        });
 }
 
-/// A distance shrinks by at most how far the cloth goes beside the drift of the obstacles, and these beside it.
+/// A distance shrinks at most by the motion of the cloth relative to the drift of the obstacles, and by theirs relative to it.
 void CandidateLists::advance_list(std::size_t cluster, double part) {
     ClusterList& list = memory_.lists[cluster];
     const bool drifts = part != 0.0 && list.drift != Vec3::Zero();

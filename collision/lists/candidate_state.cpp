@@ -14,11 +14,11 @@ void exchange(Archive& archive, Value& pair) {
 
 template <class Archive, OfType<ListedPack> Value>
 void exchange(Archive& archive, Value& pack) {
-    std::uint32_t number_and_standing = pack.number | static_cast<std::uint32_t>(pack.standing) << 24;
-    archive(pack.feature, number_and_standing);
+    std::uint32_t number_and_persistent = pack.number | static_cast<std::uint32_t>(pack.persistent) << 24;
+    archive(pack.feature, number_and_persistent);
     if constexpr (Archive::reads) {
-        pack.number = number_and_standing & 0xffffffU;
-        pack.standing = number_and_standing >> 24;
+        pack.number = number_and_persistent & 0xffffffU;
+        pack.persistent = number_and_persistent >> 24;
     }
 }
 
@@ -27,13 +27,13 @@ void exchange(Archive& archive, Value& packs) {
     archive(packs.reach, packs.wake, packs.at);
 }
 
-/// All but the version.
+/// Exchanges all but the version.
 template <class Archive, OfType<ClusterList> Value>
 void exchange_contents(Archive& archive, Value& list) {
     archive(list.boxes, list.features, list.packs, list.travel, list.cloth_travel, list.drift, list.spread, list.inside_until);
 }
 
-/// As put_lists has them, one by one.
+/// Exchanges lists one by one, as put_lists does.
 template <OfType<ClusterList> Value>
 void exchange(StateReader& state, Value& list) {
     exchange_contents(state, list);
@@ -81,7 +81,7 @@ bool are_in_order(const ClusterList& list) {
            std::is_sorted(packs.at.begin(), packs.at.end(), before);
 }
 
-/// Whether there is every pack and it is of its feature's kind.
+/// Whether every pack exists and is of its feature's kind.
 bool has_good_packs(const ClusterList& list, const Obstacles& obstacles) {
     for (std::size_t i = 0; i < list.packs.size(); ++i) {
         const ContactPair& feature = list.features[list.packs.at[i].feature];
@@ -93,10 +93,11 @@ bool has_good_packs(const ClusterList& list, const Obstacles& obstacles) {
 }
 
 bool has_active_contact(const ClusterList& list) {
-    return std::any_of(list.packs.at.begin(), list.packs.at.end(), [](const ListedPack& pack) { return pack.standing != 0; });
+    return std::any_of(list.packs.at.begin(), list.packs.at.end(), [](const ListedPack& pack) { return pack.persistent != 0; });
 }
 
-void check(const ListsMemory& memory, const ClothClusters& clusters, const Obstacles& obstacles, const StateReader& state) {
+void check(const CandidateListsState& memory, const ClothClusters& clusters, const Obstacles& obstacles,
+           const StateReader& state) {
     state.demand(memory.anchor.empty() || memory.anchor.size() == memory.seen.size(), "a wrong number of vertices");
     state.demand(!memory.anchor.empty() || memory.room_version != good_version, "room about nothing");
     for (std::size_t cluster = 0; cluster < memory.lists.size(); ++cluster) {
@@ -163,7 +164,7 @@ std::vector<SavedMotion> restored_motions(const Obstacles& obstacles, StateReade
 
 namespace {
 
-/// With versions that say no more than whether lists are good for the obstacles as they are.
+/// Writes lists with versions that only say whether lists are valid for the obstacles as they are.
 void put_lists(const std::vector<ClusterList>& lists, int version, StateWriter& state) {
     state(static_cast<std::uint64_t>(lists.size()));
     for (const ClusterList& list : lists) {
@@ -175,7 +176,7 @@ void put_lists(const std::vector<ClusterList>& lists, int version, StateWriter& 
 }  // namespace
 
 void save(const CandidateLists& candidates, const Obstacles& obstacles, StateWriter& state) {
-    const ListsMemory& memory = candidates.memory();
+    const CandidateListsState& memory = candidates.memory();
     const int version = total_version(obstacles);
     state(order_of(candidates.clusters().clusters));
     put_lists(memory.lists, version, state);
@@ -185,7 +186,7 @@ void save(const CandidateLists& candidates, const Obstacles& obstacles, StateWri
 CandidateLists restored_lists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness,
                               const Obstacles& obstacles, const CandidateLists* known, StateReader& state) {
     std::vector<int> order;
-    ListsMemory memory;
+    CandidateListsState memory;
     state(order, memory.lists, memory.seen);
     const bool same_order = known && order == order_of(known->clusters().clusters);
     state.demand(same_order || is_permutation_of(order, triangles.size()), "no order of the triangles");
@@ -198,7 +199,7 @@ CandidateLists restored_lists(std::span<const Triangle> triangles, std::span<con
     check(memory, clusters, obstacles, state);
     for (ClusterList& list : memory.lists) {
         CandidateLists::set_smallest_bounds(list);
-        list.has_standing = has_active_contact(list);
+        list.has_persistent = has_active_contact(list);
     }
     return {triangles, vertex_thickness, std::move(clusters), std::move(memory)};
 }

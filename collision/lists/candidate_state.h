@@ -10,7 +10,7 @@
 
 namespace percale {
 
-/// Tells cloth and obstacles from others, wherever they are.
+/// Distinguishes cloth and obstacles from others, wherever they are.
 std::uint64_t scene_hash(const std::vector<Triangle>& triangles, const std::vector<double>& vertex_thickness,
                          const Obstacles& obstacles);
 
@@ -21,13 +21,13 @@ struct SavedMotion {
 };
 
 void save_motions(const Obstacles& obstacles, StateWriter& state);
-/// As they were saved. Throws SceneError for those of another size.
+/// Reads motions as they were saved. Throws SceneError for those of another size.
 std::vector<SavedMotion> restored_motions(const Obstacles& obstacles, StateReader& state);
 /// Puts the obstacles there.
 void set_motions(std::span<const SavedMotion> motions, const Obstacles& obstacles);
 
-/// Everything that later calls depend on, all bounds and standing contacts: a resumed run does not depend on when lists were
-/// made. With the obstacles as they are now.
+/// Saves everything that later calls depend on, all bounds and persistent contacts, with the obstacles as they are now: a resumed
+/// run does not depend on when lists were made.
 void save(const CandidateLists& candidates, const Obstacles& obstacles, StateWriter& state);
 
 /// Lists as they were saved, of the same cloth and obstacles. Throws SceneError for what is none of these. Obstacles may still be

@@ -40,7 +40,7 @@ void set_direction(PairContact& contact) {
     if (contact.distance > 0.0) contact.direction = apart / contact.distance;
 }
 
-/// Whether a closest point in `region` of an obstacle triangle is this triangle's to report.
+/// Whether this obstacle triangle reports a closest point in `region` of it.
 bool triangle_reports(const ObstacleSurface& surface, int triangle, const PointTriangle& closest, const PairContact& contact,
                       const auto& at) {
     if (closest.region == TriangleRegion::face) return true;
@@ -82,8 +82,9 @@ PairContact edge_edge_contact(const ContactPair& pair, std::span<const Vec3> clo
     return contact;
 }
 
-/// Whether a closest point on an edge of a cloth triangle is this triangle's to report: the edge is its own, and cloth across it
-/// comes no nearer. Without the second, what touches beside an edge would push twice, or once, by how triangles are numbered.
+/// Whether this cloth triangle reports a closest point on an edge of it: it owns the edge, and cloth across the edge comes no
+/// nearer. Without the second condition the numbering of triangles would decide whether a contact beside an edge pushes once or
+/// twice.
 bool cloth_edge_reports(const ContactPair& pair, int edge, std::span<const Vec3> cloth, const PairContact& contact) {
     if ((pair.edge_bits >> edge & 1U) == 0) return false;
     if (pair.across[edge] < 0) return true;
@@ -109,11 +110,11 @@ PairContact face_vertex_contact(const ContactPair& pair, std::span<const Vec3> c
 
 }  // namespace
 
-double row_share(const PairContact& contact, double thickness) {
+double edge_mollifier(const PairContact& contact, double thickness) {
     // At a distance d the ends are (crossing/2)^2/(2 d) farther off than the middle.
     const double rise = contact.crossing * contact.crossing / (8.0 * thickness),
                  x = rise / (tolerances::negligible_rise * thickness);
-    if (x < tolerances::least_stiffness) return 0.0;
+    if (x < tolerances::min_mollifier) return 0.0;
     return x < 1.0 ? x * (2.0 - x) : 1.0;
 }
 

@@ -21,7 +21,7 @@ struct ContactPair {
 
     int cloth_count() const { return static_cast<int>(kind) + 1; }
     std::span<const int> vertices() const { return {cloth.data(), static_cast<std::size_t>(cloth_count())}; }
-    /// The same cloth feature with one of a pack's.
+    /// The same cloth feature with an obstacle feature of a pack.
     ContactPair with(const FeaturePack& pack, int lane) const {
         ContactPair full = *this;
         full.feature = pack.feature[lane];
@@ -38,7 +38,7 @@ struct PairContact {
     Vec3 direction = Vec3::Zero();  // unit, obstacle towards cloth; zero if the distance is
     Vec3 obstacle_displacement = Vec3::Zero();
     double crossing = std::numeric_limits<double>::infinity();  // m, |u| sin of the angle between edges, u the shorter
-    bool local_minimum = false;                                 // no neighbouring pair stands for the same contact better
+    bool local_minimum = false;                                 // no neighbouring pair represents the same contact better
 };
 
 /// Distance only, m.
@@ -47,12 +47,12 @@ double pair_distance(const ContactPair& pair, std::span<const Vec3> cloth, const
 /// From the obstacle's closest point to the cloth's, m: pair_distance is its length.
 Vec3 pair_apart(const ContactPair& pair, std::span<const Vec3> cloth, const Obstacle& obstacle, double fraction);
 
-/// The share of its stiffness that a row takes, 0 ... 1, all but for edges that are so nearly parallel that the closest points
-/// lie anywhere along them: where a push upon these acts would jump from one end to the other, and both ends are contacts of
-/// their own, hardly farther off. Grows smoothly from 0 to 1 at the angle that takes the ends, seen from the middle, 1e-3 of the
-/// thickness farther (a mollifier in the sense of Li et al. 2020, Incremental Potential Contact). Without it Newton did not end
-/// on a strip over a cylinder of 64 facets whose cross threads are parallel to the edges: 330 iterations a step, with it 8.
-double row_share(const PairContact& contact, double thickness);
+/// Factor on the stiffness of an edge-edge contact, 0 ... 1. It is below 1 only for edges so nearly parallel that the closest
+/// points lie anywhere along them: the point of action would jump from one end to the other, and both ends are contacts of their
+/// own, hardly farther away. It grows smoothly from 0 to 1 at the angle at which the ends are 1e-3 of the thickness farther away
+/// than the middle (a mollifier in the sense of Li et al. 2020, Incremental Potential Contact). Without it Newton did not end on
+/// a strip over a cylinder of 64 facets whose cross threads are parallel to the edges: 330 iterations a step, with it 8.
+double edge_mollifier(const PairContact& contact, double thickness);
 
 /// Everything about the closest points. A contact belongs to exactly one pair: closest points inside a face or inside two edges
 /// belong to that pair, those on an edge or vertex of the obstacle to the feature's owner and only if the feature faces the
@@ -60,7 +60,7 @@ double row_share(const PairContact& contact, double thickness);
 /// of it is the contact.
 PairContact pair_contact(const ContactPair& pair, std::span<const Vec3> cloth, const Obstacle& obstacle, double fraction);
 
-/// Asks memory for what pair_contact reads of the obstacle. Each depth reads what the one before has asked for.
+/// Prefetches what pair_contact reads of the obstacle. Each depth reads what the one before has prefetched.
 constexpr int pair_fetches = 3;
 void fetch_pair(const ContactPair& pair, const Obstacle& obstacle, int depth);
 
@@ -71,7 +71,7 @@ struct ClothMove {
 };
 MovingFour moving_pair(const ContactPair& pair, const ClothMove& move, const Obstacle& obstacle);
 
-/// Which of its points are the cloth's, a bit each.
+/// Which of its points belong to the cloth, a bit each.
 inline unsigned cloth_slots(PairKind kind) {
     if (kind == PairKind::vertex_face) return 0b0001;
     return kind == PairKind::edge_edge ? 0b0011 : 0b1110;

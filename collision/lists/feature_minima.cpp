@@ -4,35 +4,35 @@
 
 namespace percale {
 
-void FeatureMinima::begin(const ContactRows& rows) {
-    first_ = rows.size();
+void FeatureMinima::begin(const ContactConstraints& constraints) {
+    first_ = constraints.size();
     minimum_.clear();
 }
 
-bool FeatureMinima::is_taken(const ContactRows& rows, std::size_t i) const {
+bool FeatureMinima::is_taken(const ContactConstraints& constraints, std::size_t i) const {
     const auto same_place = [&](std::size_t k) {
-        const Vec3 apart = rows.obstacle_point[first_ + i] - rows.obstacle_point[first_ + k];
-        return apart.norm() <= tolerances::same_place * rows.thickness[first_ + i];
+        const Vec3 apart = constraints.obstacle_point[first_ + i] - constraints.obstacle_point[first_ + k];
+        return apart.norm() <= tolerances::same_place * constraints.thickness[first_ + i];
     };
     for (std::size_t k = 0; k < minimum_.size(); ++k) {
-        const double cosine = rows.direction[first_ + i].dot(rows.direction[first_ + k]);
+        const double cosine = constraints.direction[first_ + i].dot(constraints.direction[first_ + k]);
         if (k == i || !(cosine > tolerances::replaced_direction)) continue;
         if (minimum_[k] > minimum_[i] || (minimum_[k] == minimum_[i] && k < i && same_place(k))) return true;
     }
     return false;
 }
 
-void FeatureMinima::next_feature(ContactRows& rows) {
-    const bool of_vertex = minimum_.size() > 1 && rows.vertex[first_][1] < 0;
+void FeatureMinima::next_feature(ContactConstraints& constraints) {
+    const bool of_vertex = minimum_.size() > 1 && constraints.vertex[first_][1] < 0;
     if (of_vertex) {
-        // From behind, so that those still to be looked at have all minima before them in their places.
+        // The loop runs backwards, so that all minima before the constraints still to be examined keep their places.
         for (std::size_t i = minimum_.size(); i-- > 0;) {
-            if (!is_taken(rows, i)) continue;
-            rows.erase(first_ + i);
+            if (!is_taken(constraints, i)) continue;
+            constraints.erase(first_ + i);
             minimum_.erase(minimum_.begin() + static_cast<std::ptrdiff_t>(i));
         }
     }
-    begin(rows);
+    begin(constraints);
 }
 
 }  // namespace percale

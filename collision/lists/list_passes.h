@@ -6,7 +6,7 @@
 
 namespace percale {
 
-/// A listed pack, and one of its lanes: what the passes of an evaluation go through.
+/// A listed pack, and one of its lanes: the items of the passes of a search for contacts.
 struct SelectedPack {
     ClusterList* list;
     int index;  // in the list
@@ -25,7 +25,7 @@ inline Box box_of(const ContactPair& feature, std::span<const Vec3> positions) {
     return box;
 }
 
-/// Asks memory for what is about to be read.
+/// Prefetches what is about to be read.
 template <class T>
 void fetch(const T* first, std::size_t count) {
     const char* from = reinterpret_cast<const char*>(first);

@@ -5,7 +5,8 @@
 namespace percale {
 namespace {
 
-/// Features by an obstacle, with their packs; later obstacles have numbers less by one. Bounds of the others stay what they are.
+/// Removes the features at an obstacle, with their packs; the numbers of later obstacles decrease by one. Bounds of the others do
+/// not change.
 void remove_features_of(int obstacle, ClusterList& list) {
     if (list.features.empty() || list.features.back().obstacle < obstacle) return;
     const auto is_of_it = [&](const ContactPair& feature) { return feature.obstacle == obstacle; };
@@ -22,7 +23,7 @@ void remove_features_of(int obstacle, ClusterList& list) {
         if (feature.obstacle > obstacle) --features.back().obstacle;
     }
     ListedPacks packs;
-    list.has_standing = false;
+    list.has_persistent = false;
     for (std::size_t i = 0; i < list.packs.size(); ++i) {
         ListedPack pack = list.packs.at[i];
         pack.feature = number[pack.feature];
@@ -30,7 +31,7 @@ void remove_features_of(int obstacle, ClusterList& list) {
         packs.reach.push_back(list.packs.reach[i]);
         packs.wake.push_back(list.packs.wake[i]);
         packs.at.push_back(pack);
-        list.has_standing = list.has_standing || pack.standing != 0;
+        list.has_persistent = list.has_persistent || pack.persistent != 0;
     }
     list.features = std::move(features);
     list.packs = std::move(packs);
@@ -39,7 +40,7 @@ void remove_features_of(int obstacle, ClusterList& list) {
 
 }  // namespace
 
-void remove_obstacle(int obstacle, int version, const Obstacles& left, ListsMemory& memory) {
+void remove_obstacle(int obstacle, int version, const Obstacles& left, CandidateListsState& memory) {
     const int now = total_version(left);
     const auto go_on = [&](int& known) { known = known == version ? now : no_version; };
     go_on(memory.room_version);

@@ -4,8 +4,8 @@
 
 namespace percale {
 
-/// One obstacle is no longer there, later ones have numbers less by one. `version`: of all, with it; lists that were good for
-/// that are so for those that are `left`. What lists know of these stays, standing contacts, too.
-void remove_obstacle(int obstacle, int version, const Obstacles& left, ListsMemory& memory);
+/// Removes one obstacle; the numbers of later ones decrease by one. `version`: of all obstacles, with this one; lists that were
+/// valid for it are valid for the obstacles that are `left`. The state of their lists stays, persistent contacts included.
+void remove_obstacle(int obstacle, int version, const Obstacles& left, CandidateListsState& memory);
 
 }  // namespace percale

@@ -18,12 +18,12 @@ const PackKernels& chosen_kernels() {
     return wide ? *wide : *baseline_pack_kernels();
 }
 
-/// Whether single precision can say anything.
+/// Whether single precision gives any information.
 bool set_shape(const ContactPair& pair, std::span<const Vec3> cloth, const PlacedPack& placed, double size, PackQuery& query) {
     if (pair.kind == PairKind::edge_edge) {
         query.length = static_cast<float>((cloth[pair.cloth[1]] - cloth[pair.cloth[0]]).norm());
         query.shortest_edge = placed.shortest_edge;
-        return std::min(query.length, query.shortest_edge) > query.size / static_cast<float>(tolerances::most_sharpness);
+        return std::min(query.length, query.shortest_edge) > query.size / static_cast<float>(tolerances::max_sharpness);
     }
     double sharpness = static_cast<double>(placed.sharpness);
     if (pair.kind == PairKind::face_vertex) {
@@ -31,7 +31,7 @@ bool set_shape(const ContactPair& pair, std::span<const Vec3> cloth, const Place
     }
     sharpness = std::max(1.0, sharpness * size);
     query.sharpness = static_cast<float>(sharpness);
-    return sharpness < tolerances::most_sharpness;
+    return sharpness < tolerances::max_sharpness;
 }
 
 }  // namespace
@@ -54,8 +54,10 @@ PackAnswer measure(const ContactPair& pair, std::span<const Vec3> cloth, const P
     query.near = tolerances::rounded_up * static_cast<float>(limits.near);
     query.thickness = tolerances::rounded_up * static_cast<float>(limits.thickness);
     query.all = placed.all;
-    PackAnswer answer{
-        .distance_bound = tolerances::no_bound, .travel_to_contact = tolerances::no_bound, .near = query.all, .row = query.all};
+    PackAnswer answer{.distance_bound = tolerances::no_bound,
+                      .travel_to_contact = tolerances::no_bound,
+                      .near = query.all,
+                      .contact = query.all};
     if (!set_shape(pair, cloth, placed, size, query)) return answer;
     const PackKernels::Function kernel = pair.kind == PairKind::vertex_face ? kernels.vertex_face
                                          : pair.kind == PairKind::edge_edge ? kernels.edge_edge

@@ -9,7 +9,7 @@ namespace percale {
 /// The kernels of the widest instruction set that the processor has and PERCALE_INSTRUCTIONS in the environment allows.
 const PackKernels& pack_kernels();
 
-/// What is asked about a cloth feature and a pack: m.
+/// Distances in the query about a cloth feature and a pack, m.
 struct PackLimits {
     double near = 0.0;
     double thickness = 0.0;

@@ -23,12 +23,12 @@ struct Solid {
     BoxTree tree;
 };
 
-/// How a triangle lies to all that are not its neighbours.
+/// How a triangle meets all that are not its neighbours.
 enum class Meeting : unsigned char { none, touched, crossed };
 
 bool has_corner(const Triangle& t, int vertex) { return t[0] == vertex || t[1] == vertex || t[2] == vertex; }
 
-/// Three at most, without memory of their own.
+/// At most three corners, without heap memory.
 struct CommonCorners {
     std::array<int, 3> vertex{};
     int count = 0;
@@ -42,8 +42,8 @@ CommonCorners common_corners(const Triangle& a, const Triangle& b) {
     return common;
 }
 
-/// Whether all corners of `other` that are not corners of `first`, too, lie clearly on one side of its plane: neighbours that do
-/// share no more than their common corners. Far above rounding, so that it needs no exact test.
+/// Whether all corners of `other` that are not corners of `first` lie clearly on one side of its plane: such neighbours share
+/// only their common corners. The margin is far above rounding, so that no exact test is needed.
 bool clearly_on_one_side(const Solid& solid, int first, int other) {
     const Corners& t = solid.corners[first];
     const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
@@ -58,7 +58,7 @@ bool clearly_on_one_side(const Solid& solid, int first, int other) {
     return true;
 }
 
-/// Whether a ray lies in the closed sector between the rays a and b from the same point, as far as rounding tells.
+/// Whether a ray lies in the closed sector between the rays a and b from the same point, within rounding.
 bool in_sector(const Vec3& ray, const Vec3& a, const Vec3& b) {
     const Vec3 normal = a.cross(b);
     const double little = tolerances::clear_side * normal.norm() * ray.norm();
@@ -74,8 +74,8 @@ std::array<Vec3, 2> rays_from(const Solid& solid, int triangle, int vertex) {
     return {x[(k + 1) % 3] - x[k], x[(k + 2) % 3] - x[k]};
 }
 
-/// Of triangles with one corner in common that do not cross: whether they meet elsewhere, too. Both are convex, so they then
-/// share a ray from that corner, and it is along an edge of one of them.
+/// Whether triangles with one common corner that do not cross meet elsewhere, too. Both are convex, so they then share a ray from
+/// that corner, and it is along an edge of one of them.
 bool meet_beyond_corner(const Solid& solid, int i, int j, int vertex) {
     const auto [a, b] = rays_from(solid, i, vertex);
     const auto [c, d] = rays_from(solid, j, vertex);
@@ -91,10 +91,11 @@ Meeting meeting_of(const Solid& solid, int i, int j) {
     return common.count == 0 || meet_beyond_corner(solid, i, j, common.vertex[0]) ? Meeting::touched : Meeting::none;
 }
 
-/// Nothing where so many triangles lie side by side (a fan of n around one vertex has n^2/2 pairs) that it would take long.
+/// Returns nothing where so many triangles lie side by side (a fan of n around one vertex has n^2/2 pairs) that it would take
+/// long.
 std::optional<std::vector<Meeting>> find_meetings(const Solid& solid) {
-    const long most_tests = tolerances::most_internal_tests +
-                            tolerances::most_internal_tests_per_triangle * static_cast<long>(solid.triangles.size());
+    const long most_tests =
+        tolerances::max_internal_tests + tolerances::max_internal_tests_per_triangle * static_cast<long>(solid.triangles.size());
     std::vector<Meeting> meeting(solid.triangles.size(), Meeting::none);
     long tests = 0;
     const auto visit = [&](int i, int j) {
@@ -145,7 +146,8 @@ FaceSides sides_of(const Solid& solid, int triangle) {
 
 double area(const Corners& t) { return (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
 
-/// Triangles joined by edges, none of which anything meets, have the same on their two sides: the largest answers for all.
+/// Triangles that are joined by edges and met by nothing have equal winding numbers on their two sides: the largest triangle
+/// decides for all.
 class Regions {
 public:
     Regions(const Solid& solid, const std::vector<Meeting>& meeting)

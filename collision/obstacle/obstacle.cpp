@@ -10,13 +10,13 @@
 namespace percale {
 Obstacle::Obstacle(const TriangleMesh& mesh, const Pose& pose, double friction, TreeFactory make_tree, SurfaceShape shape)
     : mesh_(mesh), built_(pose), start_pose_(pose), end_pose_(pose), friction_(friction), shape_(shape) {
-    shares_ = std::make_unique<std::array<Share, 16>>();
+    parts_ = std::make_unique<std::array<LockedPart, 16>>();
     surface_ = make_surface(mesh.vertices, mesh.triangles, shape);
     if (deforms()) {
         start_shape_ = end_shape_ = mesh.vertices;
         find_doubles();
     } else if (surface_.watertight && !certificate::is_watertight(mesh)) {
-        // Contact takes the body as solid; so must the start, or cloth inside would be let out where only cloth outside may be.
+        // Contact takes the body as solid, and so must the check of the start: otherwise cloth inside would be accepted.
         mesh_ = solid_of(mesh, given_triangles_);
     }
     local_ = surface_.vertices;
@@ -31,7 +31,7 @@ Obstacle::Obstacle(const TriangleMesh& mesh, const Pose& pose, double friction, 
     make_patch_tree(make_tree);
 }
 
-/// A tree of patches has a sixteenth of the leaves, and what it finds is what the lists want.
+/// A tree of patches has a sixteenth of the leaves, and it finds patches, which the lists need.
 void Obstacle::make_patch_tree(TreeFactory make_tree) {
     boxes_ = packs_.box;
     for (const Box& box : boxes_) {
@@ -47,23 +47,23 @@ void Obstacle::set_pack_boxes() {
     set_boxes(packs_, surface_, paths());
     whole_box_ = {};
     for (const Box& box : packs_.box) whole_box_.add(box);
-    // What was made for another step is made anew when it is asked for.
-    for (Share& share : *shares_) {
-        for (const int pack : share.placed) packs_.placed[pack].fraction = -1.0;
-        for (const int patch : share.ready) ready_[patch] = 0;
-        share.placed.clear();
-        share.ready.clear();
+    // Data of another step are computed again when they are needed.
+    for (LockedPart& part : *parts_) {
+        for (const int pack : part.placed) packs_.placed[pack].fraction = -1.0;
+        for (const int patch : part.ready) ready_[patch] = 0;
+        part.placed.clear();
+        part.ready.clear();
     }
 }
 
 void Obstacle::make_ready(int patch) {
-    Share& share = (*shares_)[static_cast<std::size_t>(patch) % shares_->size()];
-    const std::lock_guard lock(share.mutex);
+    LockedPart& part = (*parts_)[static_cast<std::size_t>(patch) % parts_->size()];
+    const std::lock_guard lock(part.mutex);
     if (ready_[patch] != 0) return;
     set_hulls(packs_, patch, surface_, paths());
     patch_motions_[patch] = moves_ ? percale::motion_of(packs_, patch, surface_, paths()) : PatchMotion{};
-    share.ready.push_back(patch);
-    // Last: threads that see it may read the rest.
+    part.ready.push_back(patch);
+    // This store comes last: threads that see it may read the rest.
     std::atomic_ref(ready_[patch]).store(1, std::memory_order_release);
 }
 
@@ -98,7 +98,7 @@ void Obstacle::deform(std::span<const Vec3> start, std::span<const Vec3> end) {
     reshaped_ = true;
 }
 
-/// Given vertices that make one of the surface's.
+/// Finds given vertices that are one vertex of the surface.
 void Obstacle::find_doubles() {
     std::vector<int> order;  // of used vertices
     for (const Triangle& t : mesh_.triangles) order.insert(order.end(), t.begin(), t.end());
@@ -125,7 +125,7 @@ void Obstacle::place_vertices() {
     if (deforms()) mark_flat(start_, end_, surface_);
 }
 
-/// The tree holds the patches' boxes of the whole step.
+/// Refits the tree to the patches' boxes of the whole step.
 void Obstacle::refit() {
     boxes_ = packs_.box;
     for (std::size_t patch = 0; patch < boxes_.size(); ++patch) {
@@ -146,7 +146,7 @@ Box Obstacle::to_tree(const Box& box) const {
                      (corner & 4 ? grown.high : grown.low).z());
         turned.add(transform(built_, inverse_transform(start_pose_, x)));
     }
-    // Two rotations round off.
+    // Two rotations have rounding errors.
     turned.grow(tolerances::turned_box * (turned.low.cwiseAbs().maxCoeff() + turned.high.cwiseAbs().maxCoeff()));
     return turned;
 }
@@ -154,23 +154,23 @@ Box Obstacle::to_tree(const Box& box) const {
 const PlacedPack& Obstacle::placed(int pack, double fraction) {
     const PlacedPack& known = packs_.placed[pack];
     if (is_placed(known, paths(), fraction)) return known;
-    Share& share = (*shares_)[static_cast<std::size_t>(pack) % shares_->size()];
-    const std::lock_guard lock(share.mutex);
-    if (known.fraction < 0.0) share.placed.push_back(pack);
+    LockedPart& part = (*parts_)[static_cast<std::size_t>(pack) % parts_->size()];
+    const std::lock_guard lock(part.mutex);
+    if (known.fraction < 0.0) part.placed.push_back(pack);
     return place(packs_, pack, surface_, paths(), fraction);
 }
 
 void Obstacle::find(std::span<const Box> boxes, IdLists& found) {
-    asked_.clear();
-    for (const Box& box : boxes) asked_.push_back(to_tree(box));
-    tree_->find(asked_, raw_);
+    query_boxes_.clear();
+    for (const Box& box : boxes) query_boxes_.push_back(to_tree(box));
+    tree_->find(query_boxes_, raw_);
     found.start.assign(1, 0);
     found.ids.clear();
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         const auto first = static_cast<long>(found.ids.size());
         for (int k = raw_.start[i]; k < raw_.start[i + 1]; ++k) {
             const int patch = raw_.ids[k];
-            if (boxes_[patch].overlaps(asked_[i]) && packs_.box[patch].overlaps(boxes[i])) found.ids.push_back(patch);
+            if (boxes_[patch].overlaps(query_boxes_[i]) && packs_.box[patch].overlaps(boxes[i])) found.ids.push_back(patch);
         }
         std::sort(found.ids.begin() + first, found.ids.end());
         found.start.push_back(static_cast<int>(found.ids.size()));
@@ -184,7 +184,7 @@ TriangleMesh Obstacle::start_mesh() const {
 }
 
 std::optional<StartFault> Obstacle::start_fault(const TriangleMesh& cloth, int number) const {
-    // Only whether the distance is 0 matters here, so nothing is searched farther away.
+    // Only whether the distance is 0 matters here, so the distance limit is 0.
     const Certificate certificate = certify(cloth, start_mesh(), 0.0);
     if (certificate.clean() && certificate.smallest_distance > 0.0) return std::nullopt;
     StartFault fault{.obstacle = number,

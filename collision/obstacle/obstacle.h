@@ -16,14 +16,14 @@ namespace percale {
 /// One obstacle in motion. Within a step each vertex runs straight from its place at the start to its place at the end.
 class Obstacle {
 public:
-    /// `pose` places the mesh (its scale included); the tree is built there, once. That of a deforming obstacle is refitted to
-    /// each step.
+    /// `pose` places the mesh (its scale included); the tree is built there, once. The tree of a deforming obstacle is refitted
+    /// to each step.
     Obstacle(const TriangleMesh& mesh, const Pose& pose, double friction, TreeFactory make_tree,
              SurfaceShape shape = SurfaceShape::rigid);
 
     void move(const Pose& start, const Pose& end);
-    /// Where the given vertices of a deforming obstacle are before its pose, m, at both ends of the step that `move` tells of
-    /// next. Throws SceneError where vertices that the mesh has at one place part.
+    /// Where the given vertices of a deforming obstacle are before its pose, m, at both ends of the step that the next call of
+    /// `move` defines. Throws SceneError where vertices separate that the mesh has at one place.
     void deform(std::span<const Vec3> start, std::span<const Vec3> end);
     /// Throws as `deform` does.
     void check_shape(std::span<const Vec3> shape) const;
@@ -34,7 +34,7 @@ public:
     bool moves() const { return moves_; }
     /// m, largest displacement of a vertex in the coming step.
     double largest_displacement() const { return largest_displacement_; }
-    /// At the two ends of the coming step.
+    /// The poses at the two ends of the coming step.
     const Pose& start_pose() const { return start_pose_; }
     const Pose& end_pose() const { return end_pose_; }
     /// The cleaned vertices without the pose, m, as they were given first.
@@ -43,23 +43,24 @@ public:
     /// The given vertices before the pose at the two ends of the coming step, m. Empty of rigid obstacles.
     std::span<const Vec3> start_shape() const { return start_shape_; }
     std::span<const Vec3> end_shape() const { return end_shape_; }
-    /// Counts the poses it has had: lists made for another one are no longer good.
+    /// Number of poses it has had: lists made for another one are no longer valid.
     int version() const { return version_; }
 
     Vec3 at(int vertex, double fraction) const {
         return moves_ ? Vec3(start_[vertex] + fraction * (end_[vertex] - start_[vertex])) : start_[vertex];
     }
-    /// Asks memory for a vertex.
+    /// Prefetches a vertex.
     void fetch(int vertex) const { __builtin_prefetch(&start_[vertex]); }
     Vec3 displacement(int vertex) const { return moves_ ? Vec3(end_[vertex] - start_[vertex]) : Vec3(Vec3::Zero()); }
 
     const ObstaclePacks& packs() const { return packs_; }
     /// Box of everything during the whole step, m, world.
     const Box& whole_box() const { return whole_box_; }
-    /// A pack at a fraction of the step; placed when first asked for. Threads may ask at the same time, for the same fraction.
+    /// A pack at a fraction of the step; it is placed at the first call. Threads may call at the same time, with the same
+    /// fraction.
     const PlacedPack& placed(int pack, double fraction);
-    /// The hull of a pack during the step, and how a patch moves in it; found when first asked for, as placed packs are: most of
-    /// a body is far from all cloth.
+    /// Computes the hulls of a patch's packs during the step, and how the patch moves in it, at the first call, like placed
+    /// packs: most of a body is far from all cloth.
     void ready(int patch) {
         if (!is_ready(patch)) make_ready(patch);
     }
@@ -74,10 +75,10 @@ public:
 
     /// Patches whose boxes come near each world box during the step, ascending and the same for every kind of tree.
     void find(std::span<const Box> boxes, IdLists& found);
-    /// The mesh at the start of the step, as it was given; of a body that is closed but for repeated vertices and triangles
-    /// without these (solid_of).
+    /// The mesh at the start of the step, as it was given; if a body is closed but for repeated vertices and triangles, without
+    /// these (solid_of).
     TriangleMesh start_mesh() const;
-    /// What is wrong with cloth that starts there, told of the obstacle of this number; nothing if it is clear.
+    /// The fault of cloth that starts there, with `number` as the obstacle's number; nothing if the cloth is clear.
     std::optional<StartFault> start_fault(const TriangleMesh& cloth, int number) const;
 
 private:
@@ -98,7 +99,7 @@ private:
     ObstacleSurface surface_;           // vertices where the tree was built
     std::vector<Vec3> local_;           // cleaned vertices before the pose
     std::vector<Vec3> start_shape_, end_shape_;
-    std::vector<std::array<int, 2>> doubles_;  // given vertices at one place that are used, of a deforming obstacle
+    std::vector<std::array<int, 2>> doubles_;  // used given vertices at one place, of a deforming obstacle
     std::vector<Vec3> start_, end_;            // m, world
     ObstaclePacks packs_;
     Box whole_box_;
@@ -107,14 +108,14 @@ private:
     std::vector<Vec3> stand_in_corners_;
     std::vector<Triangle> stand_ins_;  // one triangle for each patch, with the patch's box: what the tree holds
     std::unique_ptr<ObstacleTree> tree_;
-    /// Guards the packs and patches that its number is the remainder of.
-    struct Share {
+    /// Guards the packs and patches whose numbers leave its own as the remainder.
+    struct LockedPart {
         std::mutex mutex;
         std::vector<int> placed, ready;  // in this step: packs, patches
     };
-    std::unique_ptr<std::array<Share, 16>> shares_;
+    std::unique_ptr<std::array<LockedPart, 16>> parts_;
     std::vector<unsigned char> ready_;  // patches whose hulls and motion are those of the step
-    std::vector<Box> asked_;            // work space of find
+    std::vector<Box> query_boxes_;      // work space of find
     IdLists raw_;
     Pose built_, start_pose_, end_pose_;
     double friction_ = 0.0;

@@ -63,7 +63,7 @@ void set_row(PackLanes& lanes, int row, int lane, const Vec3& value) {
     for (int axis = 0; axis < 3; ++axis) lanes.at[row + axis][lane] = static_cast<float>(value[axis]);
 }
 
-/// Unit normal of the triangle of an edge and a third vertex; zero for a needle, whose normal says little.
+/// Unit normal of the triangle of an edge and a third vertex; zero for a needle, whose normal is inaccurate.
 Vec3 normal_at(const Vec3& a, const Vec3& b, const Vec3& opposite) {
     const Vec3 normal = (b - a).cross(opposite - a);
     const double longest = std::max({(b - a).squaredNorm(), (opposite - a).squaredNorm(), (opposite - b).squaredNorm()});
@@ -71,7 +71,7 @@ Vec3 normal_at(const Vec3& a, const Vec3& b, const Vec3& opposite) {
     return area > tolerances::needle_area * longest ? Vec3(normal / area) : Vec3(Vec3::Zero());
 }
 
-/// The normals of the two triangles at an edge, on one side of the surface; both zero if there are others than two.
+/// The normals of the two triangles at an edge, on one side of the surface; both zero if there are not exactly two.
 std::array<Vec3, 2> edge_normals(const ObstacleSurface& surface, int edge, const VertexPaths& paths) {
     const std::span<const int> opposite = surface.opposites(edge);
     if (opposite.size() != 2) return {Vec3::Zero(), Vec3::Zero()};
@@ -107,13 +107,13 @@ std::vector<Vec3> extreme_rays(std::span<const Vec3> edges) {
 
 Cone cone_at(const ObstacleSurface& surface, int vertex, const VertexPaths& paths) {
     const std::span<const int> ring = surface.neighbours(vertex);
-    if (ring.size() > tolerances::most_cone_edges) return {};
+    if (ring.size() > tolerances::max_cone_edges) return {};
     std::vector<Vec3> edges;
     for (const int other : ring) edges.push_back((paths.start[other] - paths.start[vertex]).normalized());
     const std::vector<Vec3> rays = extreme_rays(edges);
     Vec3 sum = Vec3::Zero();
     for (const Vec3& ray : rays) sum += ray;
-    if (sum.norm() < tolerances::least_ray_sum) return {};
+    if (sum.norm() < tolerances::min_ray_sum) return {};
     Cone cone{.axis = sum.normalized(), .cosine = 1.0};
     for (const Vec3& ray : rays) cone.cosine = std::min(cone.cosine, cone.axis.dot(ray));
     return cone.cosine > tolerances::widest_cone ? cone : Cone{};
@@ -153,7 +153,7 @@ void place_directions(const FeaturePack& pack, const ObstacleSurface& surface, c
     }
 }
 
-/// work(triangle) for all of a patch.
+/// Calls work(triangle) for all triangles of a patch.
 template <class Work>
 void for_triangles(const ObstaclePacks& packs, int patch, Work work) {
     const auto [first, last] = packs.packs_of(patch, PairKind::vertex_face);
@@ -163,7 +163,7 @@ void for_triangles(const ObstaclePacks& packs, int patch, Work work) {
     }
 }
 
-/// A mean normal of the triangles of a patch, at the start of the step.
+/// The mean normal of the triangles of a patch, at the start of the step.
 Vec3 patch_normal(const ObstaclePacks& packs, int patch, const ObstacleSurface& surface, const VertexPaths& paths) {
     Vec3 normal = Vec3::Zero();
     for_triangles(packs, patch, [&](int triangle) {
@@ -272,7 +272,7 @@ const PlacedPack& place(ObstaclePacks& packs, int number, const ObstacleSurface&
     for (const int feature : pack.feature) {
         for (const int vertex : vertices_of(surface, pack.kind, feature)) box.add(paths.at(vertex, fraction));
     }
-    std::atomic_ref(placed.fraction).store(-1.0, std::memory_order_relaxed);  // others may look meanwhile
+    std::atomic_ref(placed.fraction).store(-1.0, std::memory_order_relaxed);  // other threads may read meanwhile
     placed.centre = 0.5 * (box.low + box.high);
     placed.radius = placed.sharpness = 0.0F;
     placed.shortest_edge = std::numeric_limits<float>::infinity();
@@ -283,7 +283,7 @@ const PlacedPack& place(ObstaclePacks& packs, int number, const ObstacleSurface&
         if (pack.kind == PairKind::face_vertex) placed.lanes.at[6][lane] = -1.0F;
         if (paths.rest()) place_directions(pack, surface, paths, lane, placed.lanes);
     }
-    // Last: threads that see it may read the rest.
+    // This store comes last: threads that see it may read the rest.
     std::atomic_ref(placed.fraction).store(fraction, std::memory_order_release);
     return placed;
 }

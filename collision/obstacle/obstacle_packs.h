@@ -14,21 +14,21 @@ namespace percale {
 
 enum class PairKind : unsigned char { vertex_face, edge_edge, face_vertex };  // cloth feature first
 
-/// Up to eight neighbouring obstacle features that one kind of pair is made with.
+/// Up to eight neighbouring obstacle features for one kind of pair.
 struct FeaturePack {
     PairKind kind = PairKind::vertex_face;
     int count = 0;
-    std::array<int, pack_lanes> feature{};  // triangles, edges or vertices; behind `count` the last one again
+    std::array<int, pack_lanes> feature{};  // triangles, edges or vertices; behind `count` the last one repeats
 };
 
-/// What the kernels read of a pack, for one place of the obstacle: together in memory.
+/// The data of a pack that the kernels read, for one place of the obstacle, contiguous in memory.
 struct alignas(64) PlacedPack {
     double fraction = -1.0;      // of the step, where it was placed
     Vec3 centre = Vec3::Zero();  // m, world: the lanes' coordinates are about it
     float radius = 0.0F;         // m, no coordinate is larger
     float sharpness = 0.0F;      // 1/m, largest longest_over_area; of triangles alone
     float shortest_edge = 0.0F;  // m; of edges alone
-    unsigned char all = 0;       // which lanes there are
+    unsigned char all = 0;       // which lanes are used
     PackLanes lanes;
 
     void prefetch(PairKind kind) const {
@@ -38,7 +38,7 @@ struct alignas(64) PlacedPack {
     }
 };
 
-/// Everything of a pack is below this plane and in this box during the whole step (m, world). One line of memory, far less than
+/// All features of a pack are below this plane and in this box during the whole step (m, world). It takes far less memory than
 /// the pack.
 struct alignas(64) PackHull {
     Vec3 normal = Vec3::Zero();  // unit
@@ -48,14 +48,14 @@ struct alignas(64) PackHull {
     Box box() const { return {Vec3(low[0], low[1], low[2]), Vec3(high[0], high[1], high[2])}; }
 };
 
-/// How far points are above the plane at least, m: a bound of the distance of their hull from all that is below.
+/// Smallest height of points above the plane, m: a lower bound of the distance of their hull from everything below it.
 inline double height_above(const PackHull& hull, std::span<const int> points, std::span<const Vec3> positions) {
     double lowest = hull.normal.dot(positions[points[0]]);
     for (const int point : points.subspan(1)) lowest = std::min(lowest, hull.normal.dot(positions[point]));
     return lowest - hull.offset;
 }
 
-/// Patches of sixteen neighbouring triangles with the edges and vertices they own that cloth can touch.
+/// Patches of sixteen neighbouring triangles with the edges and vertices they own that cloth can touch, in packs.
 struct ObstaclePacks {
     std::vector<int> first;  // pack of each patch and kind, and one more: see packs_of
     std::vector<Box> box;    // of each patch, m, world, of the whole step
@@ -73,7 +73,7 @@ struct ObstaclePacks {
     }
 };
 
-/// Longest edge over twice the area, 1/m: 1 over the height on it. Infinite for triangles too small to tell.
+/// Longest edge over twice the area, 1/m: 1 over the height on it. Infinite for triangles too small to measure.
 double longest_over_area(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Packs along a space-filling curve of the surface's vertices.
@@ -89,7 +89,7 @@ struct VertexPaths {
     }
 };
 
-/// Displacements of a patch's vertices during a step: all within `spread` of `mean`, m.
+/// Displacements of a patch's vertices during a step, m: all lie within `spread` of `mean`.
 struct PatchMotion {
     Vec3 mean = Vec3::Zero();
     double spread = 0.0;
@@ -106,7 +106,7 @@ PatchMotion motion_of(const ObstaclePacks& packs, int patch, const ObstacleSurfa
 /// Whether the pack is where it is at a fraction of the step. Threads that see so may read it while others place other packs.
 bool is_placed(const PlacedPack& placed, const VertexPaths& paths, double fraction);
 
-/// The pack at a fraction of the step. Only obstacles at rest get normals and cones: those of moving ones turn.
+/// The pack at a fraction of the step. Only obstacles at rest get normals and cones, because those of moving ones turn.
 const PlacedPack& place(ObstaclePacks& packs, int pack, const ObstacleSurface& surface, const VertexPaths& paths,
                         double fraction);
 

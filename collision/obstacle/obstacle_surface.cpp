@@ -40,8 +40,8 @@ Triangle sorted(Triangle t) {
     return t;
 }
 
-/// Of a deforming surface those without area stay: they may get one. `numbers`, where not null, gets those of the triangles that
-/// are kept.
+/// Triangles of a deforming surface without area stay, because they may get one. `numbers`, where not null, gets the numbers of
+/// the triangles that are kept.
 void keep_good_triangles(std::span<const Vec3> vertices, std::span<const Triangle> triangles, SurfaceShape shape,
                          ObstacleSurface& surface, std::vector<int>* numbers = nullptr) {
     const std::vector<int> merged = merge_vertices(vertices, surface.cleaning.merged_vertices);
@@ -60,7 +60,7 @@ void keep_good_triangles(std::span<const Vec3> vertices, std::span<const Triangl
     }
 }
 
-/// Keeps of `vertices`, which have these numbers in the given mesh, those that a triangle of the surface uses.
+/// Keeps the vertices that a triangle of the surface uses; `given` holds their numbers in the given mesh.
 void keep_used_vertices(std::span<const Vec3> vertices, std::span<const int> given, ObstacleSurface& surface) {
     std::vector<int> number(vertices.size(), -1);
     for (const Triangle& t : surface.triangles) {
@@ -87,7 +87,7 @@ void drop_unused_vertices(std::span<const Vec3> vertices, ObstacleSurface& surfa
         static_cast<int>(vertices.size() - surface.vertices.size()) - surface.cleaning.merged_vertices;
 }
 
-/// Vertices and triangles alone, without connectivity.
+/// Cleans vertices and triangles alone, without connectivity.
 ObstacleSurface clean(std::span<const Vec3> vertices, std::span<const Triangle> triangles, SurfaceShape shape) {
     ObstacleSurface surface;
     keep_good_triangles(vertices, triangles, shape, surface);
@@ -167,7 +167,7 @@ void connect_vertices(ObstacleSurface& surface) {
     }
 }
 
-/// Unit vector in the plane of a triangle from its edge ab towards its third vertex, square to the edge.
+/// Unit vector in the plane of a triangle from its edge ab towards its third vertex, perpendicular to the edge.
 Vec3 into_triangle(const Vec3& a, const Vec3& b, const Vec3& opposite) {
     const Vec3 along = (b - a).normalized(), away = opposite - a;
     return (away - along.dot(away) * along).normalized();
@@ -186,13 +186,13 @@ Fold fold(const ObstacleSurface& surface, int edge, std::span<const Vec3> x) {
     const std::span<const int> opposite = surface.opposites(edge);  // the owner's first
     const Vec3 &a = x[e.vertex[0]], &b = x[e.vertex[1]];
     const Vec3 first = into_triangle(a, b, x[opposite[0]]), second = into_triangle(a, b, x[opposite[1]]);
-    // Neither is 0: a triangle without area continues nothing.
+    // Neither vector is 0: a triangle without area continues nothing.
     const bool flat = first.dot(second) < 0.0 && (first + second).norm() <= tolerances::flat_fold;
     return {.flat = flat, .height = second.dot(normal)};
 }
 
-/// The same with its vertices at these places. Most edges are no such, which their four vertices tell at once: the volume that
-/// they span is at most the fold's height times these lengths.
+/// The same with its vertices at these places. Most edges are not flat, which follows at once from their four vertices: the
+/// volume that they span is at most the fold's height times these lengths.
 bool is_flat(const ObstacleSurface& surface, int edge, std::span<const Vec3> x) {
     const auto& [a, b] = surface.edges[edge].vertex;
     const std::span<const int> opposite = surface.opposites(edge);
@@ -200,11 +200,11 @@ bool is_flat(const ObstacleSurface& surface, int edge, std::span<const Vec3> x) 
     const Vec3 along = x[b] - x[a], first = x[opposite[0]] - x[a], second = x[opposite[1]] - x[a];
     const double volume = along.cross(first).dot(second);
     const double lengths = along.squaredNorm() * first.squaredNorm() * second.squaredNorm();
-    constexpr double least = 2.0 * tolerances::flat_fold;
-    return volume * volume <= least * least * lengths && fold(surface, edge, x).flat;
+    constexpr double min = 2.0 * tolerances::flat_fold;
+    return volume * volume <= min * min * lengths && fold(surface, edge, x).flat;
 }
 
-/// What both triangles of each edge have; unproven where they differ.
+/// The sides that both triangles of each edge have; unproven where they differ.
 std::vector<FaceSides> sides_at_edges(const ObstacleSurface& surface, std::span<const FaceSides> sides) {
     std::vector<FaceSides> at_edge(surface.edges.size());
     for (std::size_t i = 0; i < at_edge.size(); ++i) at_edge[i] = sides[surface.edges[i].owner];
@@ -216,14 +216,14 @@ std::vector<FaceSides> sides_at_edges(const ObstacleSurface& surface, std::span<
     return at_edge;
 }
 
-/// Whether an edge is a valley seen from where the solid is not. What is free of the solid at it is a wedge of less than half a
-/// turn, which no line through it stays in: a cloth edge that comes there ends there, or meets a face first.
+/// Whether an edge is a valley seen from outside the solid. The free space at it is a wedge of less than half a turn, which
+/// contains no line through the edge: a cloth edge that comes there ends there, or meets a face first.
 bool is_free_valley(const Fold& fold, FaceSides sides) {
     return (sides == FaceSides::outward && fold.height > tolerances::flat_fold) ||
            (sides == FaceSides::inward && fold.height < -tolerances::flat_fold);
 }
 
-/// `sides` of the triangles of a closed surface; empty of others.
+/// `sides` are those of the triangles of a closed surface; empty for others.
 void mark_touchable(ObstacleSurface& surface, std::span<const FaceSides> sides) {
     const std::vector<FaceSides> at_edge =
         sides.empty() ? std::vector(surface.edges.size(), FaceSides::unproven) : sides_at_edges(surface, sides);
@@ -244,7 +244,7 @@ void connect(ObstacleSurface& surface) {
     connect_vertices(surface);
 }
 
-/// The solid stays the same, so a closed surface still counts as one. Gives the sides of the triangles that are left.
+/// The solid stays the same, so a closed surface still counts as closed. Returns the sides of the remaining triangles.
 std::vector<FaceSides> drop_internal_faces(ObstacleSurface& surface) {
     std::vector<FaceSides> sides = face_sides(surface.vertices, surface.triangles);
     std::vector<Triangle> left;

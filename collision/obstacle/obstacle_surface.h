@@ -15,8 +15,8 @@ namespace percale {
 struct SurfaceEdge {
     std::array<int, 2> vertex;
     int owner = -1;  // the first triangle that has it
-    /// Not flat edges, nor edges of a closed surface that are valleys where the solid is not (face_sides.h): cloth meets the
-    /// faces there first.
+    /// False for flat edges and for edges of a closed surface that are valleys outside the solid (face_sides.h), where cloth
+    /// meets the faces first.
     bool can_touch = true;
 };
 
@@ -45,17 +45,18 @@ struct ObstacleSurface {
 /// Whether the surface keeps its shape.
 enum class SurfaceShape { rigid, deforming };
 
-/// Merges vertices at the same place, drops triangles without area and repeated ones, and unused vertices. Of a rigid surface
-/// those inside a closed one (face_sides.h) as well, and edges that cannot touch are marked; of a deforming one nothing is
-/// known yet (mark_flat). Throws SceneError if nothing is left.
+/// Merges vertices at the same place, drops triangles without area and repeated ones, and unused vertices. If the surface is
+/// rigid and closed, it also drops the triangles inside (face_sides.h); edges of a rigid surface that cannot touch are marked,
+/// those of a deforming one are not known yet (mark_flat). Throws SceneError if nothing is left.
 ObstacleSurface make_surface(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                              SurfaceShape shape = SurfaceShape::rigid);
 
-/// A mesh whose corners at one place are one vertex, the first of them, without triangles that have no area or are repeated:
-/// closed where make_surface takes it as closed, internal faces included. `numbers`: of its triangles in the given mesh.
+/// A mesh whose corners at one place are one vertex, the first of them, without triangles that have no area or are repeated. It
+/// is closed where make_surface takes it as closed, internal faces included. `numbers`: those of its triangles in the given mesh.
 TriangleMesh solid_of(const TriangleMesh& mesh, std::vector<int>& numbers);
 
-/// Of a deforming surface during a step: edges that are flat at both of its ends cannot touch, nor can vertices at which all are.
+/// Marks a deforming surface for a step: edges that are flat at both of its ends cannot touch, nor can vertices at which all
+/// edges are flat.
 void mark_flat(std::span<const Vec3> start, std::span<const Vec3> end, ObstacleSurface& surface);
 
 /// Whether a point at `foot` on an edge, seen along the unit vector `direction`, is locally the surface's closest: no face at the

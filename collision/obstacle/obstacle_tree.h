@@ -9,20 +9,19 @@
 
 namespace percale {
 
-/// What was found near each box of a batch, one list after the other: that of box i is ids[start[i]] ... ids[start[i + 1] -
-/// 1].
+/// The items found near each box of a batch, one list after the other: that of box i is ids[start[i]] ... ids[start[i + 1] - 1].
 struct IdLists {
     std::vector<int> start;
     std::vector<int> ids;
 };
 
-/// Finds the triangles of one mesh near boxes: all that a backend does. Every triangle whose own box overlaps the asked
-/// box is found; more may be, in any order (the caller filters and sorts). Const calls are thread-safe.
+/// Finds the triangles of one mesh near boxes, the only task of a backend. Every triangle whose own box overlaps the queried box
+/// is found; more may be, in any order (the caller filters and sorts). Const calls are thread-safe.
 class ObstacleTree {
 public:
     virtual ~ObstacleTree() = default;
     virtual void find(std::span<const Box> boxes, IdLists& found) const = 0;
-    /// The vertices that the tree was made over have other positions now.
+    /// Adapts the tree to new positions of the vertices that it was made over.
     virtual void refit() = 0;
 };
 

@@ -77,16 +77,16 @@ PERCALE_INLINE Point query_point(const PackQuery& query, int first) {
     return {all(query.at[first]), all(query.at[first + 1]), all(query.at[first + 2])};
 }
 
-/// From the closest point of a segment or triangle to a point.
+/// Vector from the closest point of a segment or triangle to a point.
 struct Apart {
     Point vector;
     Lanes square;
-    Mask inner;  // not at a corner, as far as roundings can tell
+    Mask inner;  // not at a corner, within rounding
 };
 
 PERCALE_INLINE Apart from_segment(const Point& p, const Point& a, const Point& b) {
     const Point along = b - a, offset = p - a;
-    const Lanes parameter = dot(offset, along) / larger(dot(along, along), all(least_denominator));
+    const Lanes parameter = dot(offset, along) / larger(dot(along, along), all(min_denominator));
     const Point vector = offset - clamp01(parameter) * along;
     return {vector, dot(vector, vector), (parameter > -unsure_parameter) & (parameter < 1.0F + unsure_parameter)};
 }
@@ -96,11 +96,11 @@ PERCALE_INLINE Apart nearer(const Apart& a, const Apart& b) {
     return {choose(first, a.vector, b.vector), smaller(a.square, b.square), first ? a.inner : b.inner};
 }
 
-/// Over the inside of the triangle, and a little around it, the distance of the plane (never more than that of the triangle);
-/// elsewhere that of the nearest edge.
+/// Over the inside of the triangle, and a little around it, this is the distance of the plane (never more than that of the
+/// triangle); elsewhere that of the nearest edge.
 PERCALE_INLINE Apart from_triangle(const Point& p, const Point& a, const Point& b, const Point& c, float sharpness) {
     const Point normal = cross(b - a, c - a);
-    const Lanes area = larger(dot(normal, normal), all(least_denominator));
+    const Lanes area = larger(dot(normal, normal), all(min_denominator));
     const Lanes outside = all(-unsure_area - 2.0F * pack_rounding * sharpness * sharpness) * area;
     const Point pa = p - a, pb = p - b, pc = p - c;
     const Mask inside = (dot(normal, cross(pa, pb)) >= outside) & (dot(normal, cross(pb, pc)) >= outside) &
@@ -111,11 +111,11 @@ PERCALE_INLINE Apart from_triangle(const Point& p, const Point& a, const Point& 
     return {choose(inside, plane, edge.vector), inside ? dot(plane, plane) : edge.square, inside | edge.inner};
 }
 
-PERCALE_INLINE void answer(Lanes bound, Lanes row_bound, Mask may_be_row, const PackQuery& query, PackAnswer& result) {
+PERCALE_INLINE void answer(Lanes bound, Lanes contact_bound, Mask may_be_contact, const PackQuery& query, PackAnswer& result) {
     result.distance_bound = smallest_of(bound);
-    result.travel_to_contact = smallest_of(larger(bound - query.thickness, row_bound));
+    result.travel_to_contact = smallest_of(larger(bound - query.thickness, contact_bound));
     result.near = static_cast<unsigned char>(bits(bound < query.near) & query.all);
-    result.row = static_cast<unsigned char>(bits(may_be_row) & result.near);
+    result.contact = static_cast<unsigned char>(bits(may_be_contact) & result.near);
 }
 
 void vertex_face(const PackLanes& lanes, const PackQuery& query, PackAnswer& result) {
@@ -125,10 +125,10 @@ void vertex_face(const PackLanes& lanes, const PackQuery& query, PackAnswer& res
     answer(bound, all(no_bound), Mask{} == 0, query, result);
 }
 
-/// A contact's direction is square to both edges and lies between the normals n and m of the obstacle edge's triangles (or
-/// between their opposites). If the cloth edge u has n.u and m.u of one sign, no direction between them is square to it, until
-/// its ends have moved by half the smaller of the two.
-PERCALE_INLINE Lanes travel_to_row(const PackLanes& lanes, const Point& u, float length) {
+/// A contact's direction is perpendicular to both edges and lies between the normals n and m of the obstacle edge's triangles (or
+/// between their opposites). If the cloth edge u has n.u and m.u of one sign, no direction between them is perpendicular to it
+/// until its ends have moved by half the smaller of the two.
+PERCALE_INLINE Lanes travel_to_contact(const PackLanes& lanes, const Point& u, float length) {
     const Lanes n = dot(u, lanes_point(lanes, 6)), m = dot(u, lanes_point(lanes, 9));
     const Lanes travel = 0.5F * (smaller(size_of(n), size_of(m)) - unsure_rise * length);
     const Mask one_sign = (n * m > 0.0F) & (travel > 0.0F);
@@ -138,20 +138,20 @@ PERCALE_INLINE Lanes travel_to_row(const PackLanes& lanes, const Point& u, float
 void edge_edge(const PackLanes& lanes, const PackQuery& query, PackAnswer& result) {
     const Point p = query_point(query, 0), q = query_point(query, 3), a = lanes_point(lanes, 0), b = lanes_point(lanes, 3);
     const Point u = q - p, v = b - a, r = p - a, normal = cross(u, v);
-    const Lanes uu = larger(dot(u, u), all(least_denominator)), vv = larger(dot(v, v), all(least_denominator)), uv = dot(u, v),
+    const Lanes uu = larger(dot(u, u), all(min_denominator)), vv = larger(dot(v, v), all(min_denominator)), uv = dot(u, v),
                 ur = dot(u, r), vr = dot(v, r);
     const Lanes area = dot(normal, normal), sine_squared = area / (uu * vv);
     // As closest_on_edges, without its special cases.
-    const Lanes s_line = dot(normal, cross(v, r)) / larger(area, all(least_denominator)), s_first = clamp01(s_line);
+    const Lanes s_line = dot(normal, cross(v, r)) / larger(area, all(min_denominator)), s_first = clamp01(s_line);
     const Lanes t_line = (uv * s_first + vr) / vv, t = clamp01(t_line), s = clamp01((uv * t - ur) / uu);
     const Point apart = r + s * u - t * v;
-    // Where the edges are nearly parallel the places of the closest points have few digits, the distance has half of them.
+    // Where the edges are nearly parallel the places of the closest points have few digits, and the distance has half of them.
     const Lanes slack = pack_rounding * query.size / root(larger(sine_squared, all(pack_rounding)));
     const Lanes bound = root(dot(apart, apart)) - slack;
     const float s_unsure = unsure_crossing + unsure_crossing_per_size * query.size / query.length;
     const float t_unsure = unsure_crossing + unsure_crossing_per_size * query.size / query.shortest_edge;
     const Mask inside = (s_line > -s_unsure) & (s_line < 1.0F + s_unsure) & (t_line > -t_unsure) & (t_line < 1.0F + t_unsure);
-    const Lanes travel = travel_to_row(lanes, u, query.length);
+    const Lanes travel = travel_to_contact(lanes, u, query.length);
     answer(bound, travel, (inside | (sine_squared < unsure_parallel)) & (travel <= 0.0F), query, result);
 }
 
@@ -169,17 +169,17 @@ void face_vertex(const PackLanes& lanes, const PackQuery& query, PackAnswer& res
 using Doubles = double __attribute__((vector_size(32)));
 
 double largest_difference(const double* a, const double* b, long count) {
-    Doubles most{};
+    Doubles max{};
     long i = 0;
     for (; i + 4 <= count; i += 4) {
         Doubles x, y;
         __builtin_memcpy(&x, a + i, sizeof(x));
         __builtin_memcpy(&y, b + i, sizeof(y));
         const Doubles difference = x - y, size = difference > -difference ? difference : -difference;
-        most = size > most ? size : most;
+        max = size > max ? size : max;
     }
     double result = 0.0;
-    for (int lane = 0; lane < 4; ++lane) result = most[lane] > result ? most[lane] : result;
+    for (int lane = 0; lane < 4; ++lane) result = max[lane] > result ? max[lane] : result;
     for (; i < count; ++i) {
         const double size = __builtin_fabs(a[i] - b[i]);
         result = size > result ? size : result;

@@ -15,23 +15,23 @@ struct alignas(32) PackLanes {
 struct PackQuery {
     float at[9];          // 1, 2 or 3 points, m
     float size;           // m, no coordinate of pack or query is larger; all roundings are fractions of it
-    float sharpness;      // size over the least height of the triangles; of triangles alone
+    float sharpness;      // size over the smallest height of the triangles; of triangles alone
     float shortest_edge;  // m, of the pack; of edges alone
     float length;         // m, of the cloth edge; of edges alone
     float near;           // m
     float thickness;      // m
-    unsigned char all;    // which lanes there are
+    unsigned char all;    // which lanes are used
 };
 
 /// Lower bounds: nothing in the pack is nearer.
 struct PackAnswer {
     float distance_bound;     // m
-    float travel_to_contact;  // m, how far a vertex must move before anything of the pack can be a contact
+    float travel_to_contact;  // m, how far a vertex must move before any feature of the pack can be a contact
     unsigned char near;       // lanes whose bound is below PackQuery::near
-    unsigned char row;        // those of them that can be a contact as things are
+    unsigned char contact;    // those of them that can be a contact at these positions
 };
 
-/// One function for each kind of pair, and what goes over long arrays. All instruction sets give the same bits.
+/// One function for each kind of pair, and functions over long arrays. All instruction sets give the same bits.
 struct PackKernels {
     using Function = void (*)(const PackLanes&, const PackQuery&, PackAnswer&);
     Function vertex_face, edge_edge, face_vertex;
@@ -39,7 +39,8 @@ struct PackKernels {
     double (*largest_difference)(const double* a, const double* b, long count);
     /// Smallest of `count` numbers; infinity if there are none.
     float (*smallest)(const float* values, long count);
-    /// Writes to `found`, which has room for `count`, where values are <= limit, in ascending order; returns how many.
+    /// Writes the places where values are <= limit to `found`, which has room for `count`, in ascending order; returns their
+    /// number.
     long (*find_up_to)(const float* values, long count, float limit, int* found);
 };
 

@@ -16,7 +16,7 @@ void ClusterTree::refit(std::span<const Box> boxes) {
     }
 }
 
-bool ClusterTree::find_pairs(std::vector<std::pair<int, int>>& pairs, long most) {
+bool ClusterTree::find_pairs(std::vector<std::pair<int, int>>& pairs, long max) {
     pairs.clear();
     open_.assign({{1, 1}});
     while (!open_.empty()) {
@@ -24,7 +24,7 @@ bool ClusterTree::find_pairs(std::vector<std::pair<int, int>>& pairs, long most)
         open_.pop_back();
         if (!nodes_[a].overlaps(nodes_[b])) continue;
         if (a >= leaves_) {
-            if (static_cast<long>(pairs.size()) >= most) return false;
+            if (static_cast<long>(pairs.size()) >= max) return false;
             pairs.emplace_back(static_cast<int>(a - leaves_), static_cast<int>(b - leaves_));
             continue;
         }

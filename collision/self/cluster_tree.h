@@ -16,9 +16,9 @@ public:
     /// Takes the items' boxes; all items if their number has changed.
     void refit(std::span<const Box> boxes);
 
-    /// All pairs (a, b) with a <= b of items whose boxes overlap, (a, a) included, in ascending order; false, and pairs of no
-    /// use, where they are more than `most`.
-    bool find_pairs(std::vector<std::pair<int, int>>& pairs, long most = std::numeric_limits<long>::max());
+    /// Finds all pairs (a, b) with a <= b of items whose boxes overlap, (a, a) included, in ascending order. Returns false, and
+    /// unusable pairs, where there are more than `most`.
+    bool find_pairs(std::vector<std::pair<int, int>>& pairs, long max = std::numeric_limits<long>::max());
 
 private:
     std::vector<Box> nodes_;  // node 1 is the root, the children of k are 2k and 2k + 1; leaves begin at leaves_

@@ -14,7 +14,7 @@ void NearCloths::set_motion(std::span<const Vec3> from, std::span<const Vec3> to
     }
 }
 
-const std::vector<int>& NearCloths::groups(std::span<const int> before, bool may_part) {
+const std::vector<int>& NearCloths::islands(std::span<const int> before, bool may_part) {
     const auto grown = [&](int c, double thicknesses) {
         Box box = boxes_[c];
         box.grow(thicknesses * cloths_[c].thickness);
@@ -22,7 +22,7 @@ const std::vector<int>& NearCloths::groups(std::span<const int> before, bool may
     };
     const int count = static_cast<int>(cloths_.size());
     grown_.resize(cloths_.size());
-    // Wider than what meets: cloths that hover there would be divided and joined again and again.
+    // These boxes are wider than those that join: otherwise cloths that hover there would be divided and joined repeatedly.
     for (int c = 0; c < count; ++c) grown_[c] = grown(c, 1.0);
     tree_.refit(grown_);
     tree_.find_pairs(pairs_);
@@ -31,9 +31,9 @@ const std::vector<int>& NearCloths::groups(std::span<const int> before, bool may
     for (const auto& [a, b] : pairs_) {
         if (before.empty() || before[a] == before[b] || grown(a, 0.5).overlaps(grown(b, 0.5))) sets_.join(a, b);
     }
-    groups_.resize(cloths_.size());
-    for (int c = 0; c < count; ++c) groups_[c] = sets_.of(c);
-    return groups_;
+    islands_.resize(cloths_.size());
+    for (int c = 0; c < count; ++c) islands_[c] = sets_.of(c);
+    return islands_;
 }
 
 }  // namespace percale

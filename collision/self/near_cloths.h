@@ -10,10 +10,10 @@
 
 namespace percale {
 
-/// Which cloths come near each other during a move, by their boxes.
+/// Finds by boxes which cloths come near each other during a move.
 class NearCloths {
 public:
-    /// A cloth's vertices, and its thickness: two come into contact no farther apart than the mean of theirs, m.
+    /// A cloth's vertices, and its thickness, m: the activation distance of two cloths is at most the mean of their thicknesses.
     struct Cloth {
         std::vector<int> vertices;
         double thickness = 0.0;
@@ -24,13 +24,13 @@ public:
     std::size_t count() const { return cloths_.size(); }
     const std::vector<int>& vertices(int cloth) const { return cloths_[cloth].vertices; }
 
-    /// The straight line that later answers are about.
+    /// Sets the linear motion to which later answers refer.
     void set_motion(std::span<const Vec3> from, std::span<const Vec3> to);
 
-    /// The group of each cloth, by its lowest member, where `before` says which they were in; empty: none yet. Cloths that may
-    /// come into contact join groups. Where groups may part, those of one stay in it that are within their thicknesses, by way
-    /// of others, too.
-    const std::vector<int>& groups(std::span<const int> before, bool may_part);
+    /// The island of each cloth, named by its lowest member. `before`: the islands so far; empty: none yet. Islands of cloths
+    /// that may come into contact are joined. Where islands may part, cloths within their thicknesses stay together, also through
+    /// others.
+    const std::vector<int>& islands(std::span<const int> before, bool may_part);
 
 private:
     std::vector<Cloth> cloths_;
@@ -38,7 +38,7 @@ private:
     ClusterTree tree_;
     std::vector<std::pair<int, int>> pairs_;
     DisjointSets sets_;
-    std::vector<int> groups_;
+    std::vector<int> islands_;
 };
 
 }  // namespace percale

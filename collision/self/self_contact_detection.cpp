@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "geometry/cut_floor.h"
+#include "geometry/chunks.h"
+#include "geometry/clamp_floor.h"
 #include "geometry/joined_places.h"
-#include "geometry/stretches.h"
 #include "percale/certify.h"
 #include "tolerances.h"
 
@@ -53,75 +53,81 @@ StartFault SelfContactDetection::check_start(std::span<const Vec3> positions) co
     return fault;
 }
 
-void SelfContactDetection::refresh(std::span<const Vec3> start, std::span<const Vec3> predicted, Workers* workers) {
+void SelfContactDetection::update_candidates(std::span<const Vec3> start, std::span<const Vec3> predicted, Workers* workers) {
     lists_.set_workers(workers);
     lists_.for_each([](SelfList& list) {
-        for (SelfPairRecord& record : list.records) record.zone = 0.0;
+        for (SelfPairRecord& record : list.records) record.activation_distance = 0.0;
     });
     lists_.begin_step(start, predicted);
 }
 
-double SelfContactDetection::add_rows(std::span<const Vec3> positions, ContactRows& rows, Workers* workers) {
+double SelfContactDetection::add_constraints(std::span<const Vec3> positions, ContactConstraints& constraints, Workers* workers) {
     lists_.set_workers(workers);
     lists_.cover(positions, positions);
     near_.clear();
     lists_.for_each([&](SelfList& list) {
         if (list.smallest_reach - list.travel < list.thickness) near_.push_back(&list);
     });
-    // As with obstacles: what stretches of lists find is joined in the order of the lists.
+    // As with obstacles, the results of chunks of lists are joined in the order of the lists.
     const std::size_t grain = workers ? tolerances::self_lists_a_part : near_.size() + 1,
-                      parts = stretch_count(near_.size(), grain);
+                      parts = chunk_count(near_.size(), grain);
     if (found_.size() < parts) found_.resize(parts);
-    for_stretches(workers, near_.size(), grain, [&](std::size_t first, std::size_t last, int) {
+    parallel_for_chunks(workers, near_.size(), grain, [&](std::size_t first, std::size_t last, int) {
         Found& own = found_[first / grain];
-        own.rows.clear();
+        own.constraints.clear();
         own.smallest = infinity;
-        for (std::size_t i = first; i < last; ++i) add_rows_of(*near_[i], positions, own.smallest, parts == 1 ? rows : own.rows);
+        for (std::size_t i = first; i < last; ++i)
+            add_constraints_of(*near_[i], positions, own.smallest, parts == 1 ? constraints : own.constraints);
     });
     double smallest = infinity;
     for (const Found& own : std::span(found_).first(parts)) {
         smallest = std::min(smallest, own.smallest);
-        if (parts > 1) rows.append(own.rows);
+        if (parts > 1) constraints.append(own.constraints);
     }
     return smallest;
 }
 
-void SelfContactDetection::add_rows_of(SelfList& list, std::span<const Vec3> positions, double& smallest, ContactRows& rows) {
+void SelfContactDetection::add_constraints_of(SelfList& list, std::span<const Vec3> positions, double& smallest,
+                                              ContactConstraints& constraints) {
     list.smallest_reach = infinity;
     for (SelfPair& pair : list.pairs) {
-        if (pair.reach - list.travel < pair.thickness) smallest = std::min(smallest, measure(list, pair, positions, rows));
+        if (pair.reach - list.travel < pair.thickness) smallest = std::min(smallest, measure(list, pair, positions, constraints));
         list.smallest_reach = std::min(list.smallest_reach, pair.reach);
     }
 }
 
-/// Measures a pair and adds its row; returns its distance, or infinity if it has none.
-double SelfContactDetection::measure(SelfList& list, SelfPair& pair, std::span<const Vec3> positions, ContactRows& rows) {
+/// Measures a pair and adds its contact constraint; returns its distance, or infinity if it is not in contact.
+double SelfContactDetection::measure(SelfList& list, SelfPair& pair, std::span<const Vec3> positions,
+                                     ContactConstraints& constraints) {
     const SelfPairContact contact = self_contact(pair, positions, lists_.surface());
     pair.reach = contact.distance + list.travel;
-    const double zone = std::max(contact.relative_zone, contact.crossing * tolerances::least_zone) *
-                        thickness_at(pair, list.of_seam(pair), contact.weight);
-    if (contact.distance < zone && zone > tolerances::widened_zone * list.zone(pair)) list.record_of(pair).zone = zone;
-    const double begun = list.zone(pair);
+    const double activation_distance = std::max(contact.activation_ratio, contact.crossing * tolerances::min_activation_ratio) *
+                                       activation_distance_at(pair, list.seam_activation_distance(pair), contact.weight);
+    if (contact.distance < activation_distance &&
+        activation_distance > tolerances::widened_activation_ratio * list.activation_distance(pair))
+        list.record_of(pair).activation_distance = activation_distance;
+    const double begun = list.activation_distance(pair);
     if (contact.distance >= begun) return infinity;
-    add_row(pair, begun, contact, rows);
+    add_constraint(pair, begun, contact, constraints);
     return contact.distance;
 }
 
-void SelfContactDetection::add_row(const SelfPair& pair, double zone, const SelfPairContact& contact, ContactRows& rows) const {
-    rows.vertex.push_back(pair.vertex);
-    rows.weight.push_back(contact.weight);
-    rows.direction.push_back(contact.direction);
-    rows.obstacle_point.push_back(Vec3::Zero());
-    rows.obstacle_displacement.push_back(Vec3::Zero());
-    rows.distance.push_back(contact.distance);
-    rows.thickness.push_back(zone);
-    rows.friction.push_back(0.5 * (friction_[pair.vertex[0]] + friction_[pair.vertex[3]]));
-    rows.share.push_back(1.0);
-    rows.obstacle.push_back(-1);
-    rows.feature.push_back(pair.shape == PairShape::edge_edge ? 2 : 1);
+void SelfContactDetection::add_constraint(const SelfPair& pair, double activation_distance, const SelfPairContact& contact,
+                                          ContactConstraints& constraints) const {
+    constraints.vertex.push_back(pair.vertex);
+    constraints.weight.push_back(contact.weight);
+    constraints.direction.push_back(contact.direction);
+    constraints.obstacle_point.push_back(Vec3::Zero());
+    constraints.obstacle_displacement.push_back(Vec3::Zero());
+    constraints.distance.push_back(contact.distance);
+    constraints.thickness.push_back(activation_distance);
+    constraints.friction.push_back(0.5 * (friction_[pair.vertex[0]] + friction_[pair.vertex[3]]));
+    constraints.mollifier.push_back(1.0);
+    constraints.obstacle.push_back(-1);
+    constraints.feature.push_back(pair.shape == PairShape::edge_edge ? 2 : 1);
 }
 
-double SelfContactDetection::largest_safe_fraction(std::span<const Vec3> from, std::span<const Vec3> to, Workers* workers) {
+double SelfContactDetection::collision_free_step_size(std::span<const Vec3> from, std::span<const Vec3> to, Workers* workers) {
     lists_.set_workers(workers);
     const double covered = lists_.cover(from, to);
     lists_.set_motion(from, to);
@@ -130,21 +136,21 @@ double SelfContactDetection::largest_safe_fraction(std::span<const Vec3> from, s
         if (!stays_clear(list.smallest_reach - list.travel, list.thickness, lists_.shrink(list) * covered))
             near_.push_back(&list);
     });
-    // Stretches are the same for any number of threads; within one, what a list allows is all that the next ones look at.
+    // Chunks are the same for any number of threads; within one, the limit of a list bounds the search of the next ones.
     constexpr std::size_t grain = tolerances::self_lists_a_part;
-    found_.resize(std::max(found_.size(), stretch_count(near_.size(), grain)));
-    for_stretches(workers, near_.size(), grain, [&](std::size_t first, std::size_t last, int) {
+    found_.resize(std::max(found_.size(), chunk_count(near_.size(), grain)));
+    parallel_for_chunks(workers, near_.size(), grain, [&](std::size_t first, std::size_t last, int) {
         double& safe = found_[first / grain].safe;
         safe = covered;
-        for (std::size_t i = first; i < last; ++i) safe = cut(*near_[i], from, to, safe);
+        for (std::size_t i = first; i < last; ++i) safe = clamp(*near_[i], from, to, safe);
     });
     double safe = covered;
-    for (std::size_t part = 0; part < stretch_count(near_.size(), grain); ++part) safe = std::min(safe, found_[part].safe);
+    for (std::size_t part = 0; part < chunk_count(near_.size(), grain); ++part) safe = std::min(safe, found_[part].safe);
     return safe;
 }
 
 /// Lowers `safe` where a pair of the list needs it.
-double SelfContactDetection::cut(SelfList& list, std::span<const Vec3> from, std::span<const Vec3> to, double safe) {
+double SelfContactDetection::clamp(SelfList& list, std::span<const Vec3> from, std::span<const Vec3> to, double safe) {
     const double shrink = lists_.shrink(list);
     if (stays_clear(list.smallest_reach - list.travel, list.thickness, shrink * safe)) return safe;
     for (SelfPair& pair : list.pairs) {
@@ -153,7 +159,7 @@ double SelfContactDetection::cut(SelfList& list, std::span<const Vec3> from, std
         pair.reach = distance + list.travel;
         if (stays_clear(distance, pair.thickness, shrink * safe)) continue;
         const MovingFour four = moving_pair(pair, from, to);
-        safe = safe_time(four, pair.shape, floor_of_cut(four, distance, pair.thickness), safe);
+        safe = time_of_impact_lower_bound(four, pair.shape, clamped_distance(four, distance, pair.thickness), safe);
     }
     return safe;
 }

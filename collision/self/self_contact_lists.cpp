@@ -7,7 +7,7 @@
 #include <numeric>
 #include <optional>
 
-#include "geometry/stretches.h"
+#include "geometry/chunks.h"
 #include "tolerances.h"
 
 namespace percale {
@@ -15,7 +15,7 @@ namespace {
 
 double largest(std::span<const double> list) { return list.empty() ? 0.0 : *std::max_element(list.begin(), list.end()); }
 
-/// m, largest thickness that is said of a pair of the cloth, or of any without one; 0 where nothing is.
+/// m, largest thickness that is set for a pair of the cloth, or for any pair if no cloth is given; 0 where none is set.
 double largest_said(const ClothPairs& pairs, std::optional<int> cloth = {}) {
     double thickness = 0.0;
     for (const auto& [cloths, pair] : pairs.said()) {
@@ -48,7 +48,7 @@ int place_in(std::span<const int> ascending, int number) {
     return static_cast<int>(std::lower_bound(ascending.begin(), ascending.end(), number) - ascending.begin());
 }
 
-/// m, of each vertex: what lists of its clusters allow them to come nearer beyond the move that they are made for.
+/// m, of each vertex: how much nearer its clusters may come to others beyond the move for which their lists are made.
 std::vector<double> skins(const ClothSurface& surface, std::span<const Vec3> rest, std::span<const double> thickness) {
     std::vector<double> lengths(rest.size(), 0.0), edges(rest.size(), 0.0);
     for (const ClothSurface::Edge& edge : surface.edges) {
@@ -91,7 +91,7 @@ SelfContactLists::SelfContactLists(std::span<const Triangle> triangles, std::spa
       near_cloths_(near_cloths(cloth, vertex_thickness)),
       clusters_of_cloth_(near_cloths_.count()) {
     cloth_.sewn = SewnRest(cloth_.surface, cloth.stitches, cloth_.rest,
-                           std::max(largest(vertex_thickness), largest_said(cloth.pairs)) / tolerances::contact_of_seam);
+                           std::max(largest(vertex_thickness), largest_said(cloth.pairs)) / tolerances::seam_activation_ratio);
     cloth_.vertex_boxes.resize(cloth_.rest.size());
     cloth_.edge_boxes.resize(cloth_.surface.edges.size());
     cloth_.triangle_boxes.resize(cloth_.surface.triangles.size());
@@ -137,18 +137,18 @@ void SelfContactLists::add_clusters(int cloth, std::span<const int> triangles) {
 
 double SelfContactLists::cover(std::span<const Vec3> from, std::span<const Vec3> to) {
     move_to(from);
-    regroup(from, to, false);
+    rebuild_islands(from, to, false);
     return cover_move(from, to);
 }
 
 double SelfContactLists::begin_step(std::span<const Vec3> from, std::span<const Vec3> to) {
     move_to(from);
-    regroup(from, to, true);
+    rebuild_islands(from, to, true);
     give_up_room(from, to);
     return cover_move(from, to);
 }
 
-/// Shortens the bounds of all lists.
+/// Shrinks the bounds of all lists.
 void SelfContactLists::move_to(std::span<const Vec3> from) {
     set_motion(memory_.seen, from);
     for_each([&](SelfList& list) { list.travel += shrink(list); });
@@ -160,13 +160,13 @@ double SelfContactLists::cover_move(std::span<const Vec3> from, std::span<const 
     std::span<const Vec3> end = to;
     cloth_.forget_boxes();
     for (;;) {
-        const long most =
-            fraction < tolerances::least_covered
+        const long max =
+            fraction < tolerances::min_covered_fraction
                 ? std::numeric_limits<long>::max()
-                : tolerances::most_self_pairs + tolerances::most_self_pairs_per_vertex * static_cast<long>(cloth_.rest.size());
+                : tolerances::max_self_pairs + tolerances::max_self_pairs_per_vertex * static_cast<long>(cloth_.rest.size());
         set_motion(from, end);
-        const auto has_lists = [&](SelfGroup& group) { return !set_rooms(group, from, end) || find_lists(group, most); };
-        if (std::all_of(memory_.groups.begin(), memory_.groups.end(), has_lists) && make_stale(from, most)) break;
+        const auto has_lists = [&](Island& island) { return !set_rooms(island, from, end) || find_lists(island, max); };
+        if (std::all_of(memory_.islands.begin(), memory_.islands.end(), has_lists) && make_stale(from, max)) break;
         give_up_lists_just_made();
         fraction *= 0.5;
         shortened_.resize(from.size());
@@ -177,50 +177,51 @@ double SelfContactLists::cover_move(std::span<const Vec3> from, std::span<const 
     return fraction;
 }
 
-/// Lists that would take too many pairs: they are made for a shorter move.
+/// Gives up lists that would take too many pairs; they are then made for a shorter move.
 void SelfContactLists::give_up_lists_just_made() {
     for_each([](SelfList& list) {
         if (list.travel == 0.0) list.give_up();
     });
 }
 
-/// Of clusters and lists that have far more room than a move takes: what they hold has to be looked at again and again.
+/// Gives up clusters' boxes and lists that have far more room than a move takes, because their contents are examined at each
+/// call.
 void SelfContactLists::give_up_room(std::span<const Vec3> from, std::span<const Vec3> to) {
-    for (const SelfGroup& group : memory_.groups) {
-        for_each_swept(group, from, to, [&](int c, const Box& swept) {
+    for (const Island& island : memory_.islands) {
+        for_each_swept(island, from, to, [&](int c, const Box& swept) {
             const double margins = 2.0 * tolerances::self_skin * cloth_.clusters[c].thickness;
             const Box& room = memory_.rooms[c];
             const Vec3 wanted = swept.high - swept.low + Vec3::Constant(margins);
-            if ((room.high - room.low).sum() > tolerances::most_room * wanted.sum()) memory_.rooms[c] = Box{};
+            if ((room.high - room.low).sum() > tolerances::max_room_ratio * wanted.sum()) memory_.rooms[c] = Box{};
         });
     }
     set_motion(from, to);
     for_each([&](SelfList& list) {
         const double wanted = shrink(list) + cloth_.clusters[list.first].skin + cloth_.clusters[list.second].skin;
-        if (!list.pairs.empty() && list.room - list.travel > tolerances::most_room * wanted) list.give_up();
+        if (!list.pairs.empty() && list.room - list.travel > tolerances::max_room_ratio * wanted) list.give_up();
     });
 }
 
-/// Divides cloths into groups anew where some meet or part on the straight line between two states. Groups that have changed
-/// have to find their lists.
-void SelfContactLists::regroup(std::span<const Vec3> from, std::span<const Vec3> to, bool may_part) {
-    if (memory_.groups.size() == 1 && cloth_count() == 1) return;
-    group_of_cloth_.assign(memory_.groups.empty() ? 0 : cloth_count(), 0);
-    for (const SelfGroup& group : memory_.groups) {
-        for (const int cloth : group.cloths) group_of_cloth_[cloth] = group.cloths.front();
+/// Divides the cloths into islands again where some meet or part in the linear motion between two states. Islands that have
+/// changed have to find their lists.
+void SelfContactLists::rebuild_islands(std::span<const Vec3> from, std::span<const Vec3> to, bool may_part) {
+    if (memory_.islands.size() == 1 && cloth_count() == 1) return;
+    island_of_cloth_.assign(memory_.islands.empty() ? 0 : cloth_count(), 0);
+    for (const Island& island : memory_.islands) {
+        for (const int cloth : island.cloths) island_of_cloth_[cloth] = island.cloths.front();
     }
     near_cloths_.set_motion(from, to);
-    const std::vector<int>& first_of = near_cloths_.groups(group_of_cloth_, may_part);
-    if (first_of == group_of_cloth_) return;
-    std::vector<SelfGroup> groups;
+    const std::vector<int>& first_of = near_cloths_.islands(island_of_cloth_, may_part);
+    if (first_of == island_of_cloth_) return;
+    std::vector<Island> islands;
     std::vector<std::size_t> place(first_of.size());
     for (int cloth = 0; cloth < static_cast<int>(first_of.size()); ++cloth) {
-        if (first_of[cloth] == cloth) groups.emplace_back();
-        place[cloth] = first_of[cloth] == cloth ? groups.size() - 1 : place[first_of[cloth]];
-        groups[place[cloth]].cloths.push_back(cloth);
+        if (first_of[cloth] == cloth) islands.emplace_back();
+        place[cloth] = first_of[cloth] == cloth ? islands.size() - 1 : place[first_of[cloth]];
+        islands[place[cloth]].cloths.push_back(cloth);
     }
-    for (SelfGroup& old : memory_.groups) {
-        SelfGroup& now = groups[place[old.cloths.front()]];
+    for (Island& old : memory_.islands) {
+        Island& now = islands[place[old.cloths.front()]];
         if (now.cloths == old.cloths) {
             now.lists = std::move(old.lists);
             continue;
@@ -232,11 +233,11 @@ void SelfContactLists::regroup(std::span<const Vec3> from, std::span<const Vec3>
     }
     std::sort(loose_lists_.begin(), loose_lists_.end(),
               [](const SelfList& a, const SelfList& b) { return clusters_of(a) < clusters_of(b); });
-    memory_.groups = std::move(groups);
+    memory_.islands = std::move(islands);
 }
 
-/// Makes lists without room for a move anew; false, and some of them not, if that takes too many pairs.
-bool SelfContactLists::make_stale(std::span<const Vec3> from, long most) {
+/// Rebuilds lists without room for a move. Returns false, and some are not rebuilt, if that takes too many pairs.
+bool SelfContactLists::make_stale(std::span<const Vec3> from, long max) {
     stale_.clear();
     for_each([&](SelfList& list) {
         if (list.travel + shrink(list) <= list.room) return;
@@ -252,53 +253,56 @@ bool SelfContactLists::make_stale(std::span<const Vec3> from, long most) {
     makers_.resize(workers_ ? static_cast<std::size_t>(workers_->threads()) : 1);
     const std::span<SelfList* const> stale = stale_;
     long considered = 0;
-    // In rounds: how many pairs there are is looked at in between, and the same for any number of threads.
-    for (std::size_t first = 0; first < stale.size() && considered <= most; first += tolerances::self_lists_a_round) {
+    // Lists are made in rounds: the pairs are counted after each, so that the count is the same for any number of threads.
+    for (std::size_t first = 0; first < stale.size() && considered <= max; first += tolerances::self_lists_a_round) {
         const auto round = stale.subspan(first, std::min(tolerances::self_lists_a_round, stale.size() - first));
         considered_.assign(round.size(), 0);
-        for_stretches(workers_, round.size(), tolerances::self_lists_a_part, [&](std::size_t begin, std::size_t end, int slot) {
-            for (std::size_t i = begin; i < end; ++i) considered_[i] = makers_[slot].fill(cloth_, *round[i], from);
-        });
+        parallel_for_chunks(workers_, round.size(), tolerances::self_lists_a_part,
+                            [&](std::size_t begin, std::size_t end, int slot) {
+                                for (std::size_t i = begin; i < end; ++i)
+                                    considered_[i] = makers_[slot].fill(cloth_, *round[i], from);
+                            });
         considered = std::accumulate(considered_.begin(), considered_.end(), considered);
     }
-    return considered <= most;
+    return considered <= max;
 }
 
-Vec3 SelfContactLists::centre(const SelfGroup& group, std::span<const Vec3> positions) const {
+Vec3 SelfContactLists::centre(const Island& island, std::span<const Vec3> positions) const {
     Vec3 sum = Vec3::Zero();
     std::size_t count = 0;
-    for (const int cloth : group.cloths) {
+    for (const int cloth : island.cloths) {
         for (const int v : near_cloths_.vertices(cloth)) sum += positions[v];
         count += near_cloths_.vertices(cloth).size();
     }
     return sum / static_cast<double>(count);
 }
 
-/// Calls `work(cluster, Box)` for each cluster of a group, on all threads: where it is on the straight line, from the centre of
-/// the group.
+/// Calls `work(cluster, Box)` for each cluster of an island, on all threads: its box in the linear motion, relative to the centre
+/// of the island.
 template <typename Work>
-void SelfContactLists::for_each_swept(const SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to,
+void SelfContactLists::for_each_swept(const Island& island, std::span<const Vec3> from, std::span<const Vec3> to,
                                       const Work& work) {
-    const Vec3 begin = centre(group, from), end = centre(group, to);
-    for (const int cloth : group.cloths) {
+    const Vec3 begin = centre(island, from), end = centre(island, to);
+    for (const int cloth : island.cloths) {
         const std::span<const int> clusters = clusters_of_cloth_[cloth];
-        for_stretches(workers_, clusters.size(), tolerances::self_clusters_a_part, [&](std::size_t first, std::size_t last, int) {
-            for (const int c : clusters.subspan(first, last - first)) {
-                Box swept;
-                for (const int v : cloth_.clusters[c].all_vertices) {
-                    swept.add(from[v] - begin);
-                    swept.add(to[v] - end);
-                }
-                work(c, swept);
-            }
-        });
+        parallel_for_chunks(workers_, clusters.size(), tolerances::self_clusters_a_part,
+                            [&](std::size_t first, std::size_t last, int) {
+                                for (const int c : clusters.subspan(first, last - first)) {
+                                    Box swept;
+                                    for (const int v : cloth_.clusters[c].all_vertices) {
+                                        swept.add(from[v] - begin);
+                                        swept.add(to[v] - end);
+                                    }
+                                    work(c, swept);
+                                }
+                            });
     }
 }
 
-/// Gives clusters that leave their rooms others; whether there are any.
-bool SelfContactLists::set_rooms(const SelfGroup& group, std::span<const Vec3> from, std::span<const Vec3> to) {
+/// Gives clusters that leave their rooms new ones; returns whether there are any.
+bool SelfContactLists::set_rooms(const Island& island, std::span<const Vec3> from, std::span<const Vec3> to) {
     std::fill(left_.begin(), left_.end(), 0);
-    for_each_swept(group, from, to, [&](int c, const Box& swept) {
+    for_each_swept(island, from, to, [&](int c, const Box& swept) {
         Box& room = memory_.rooms[c];
         if (room.contains(swept.low) && room.contains(swept.high)) return;
         room = swept;
@@ -308,11 +312,12 @@ bool SelfContactLists::set_rooms(const SelfGroup& group, std::span<const Vec3> f
     return std::find(left_.begin(), left_.end(), 1) != left_.end();
 }
 
-/// A list for each two clusters whose rooms come within their thicknesses; false, and no rooms, where they are too many.
-bool SelfContactLists::find_lists(SelfGroup& group, long most) {
+/// Finds a list for each two clusters whose rooms come within their thicknesses; returns false, and drops the rooms, where there
+/// are too many.
+bool SelfContactLists::find_lists(Island& island, long max) {
     tree_clusters_.clear();
     tree_boxes_.clear();
-    for (const int cloth : group.cloths) {
+    for (const int cloth : island.cloths) {
         for (const int c : clusters_of_cloth_[cloth]) {
             tree_clusters_.push_back(c);
             tree_boxes_.push_back(memory_.rooms[c]);
@@ -320,7 +325,7 @@ bool SelfContactLists::find_lists(SelfGroup& group, long most) {
         }
     }
     tree_.refit(tree_boxes_);
-    if (!tree_.find_pairs(cluster_pairs_, most / tolerances::pairs_a_list)) {
+    if (!tree_.find_pairs(cluster_pairs_, max / tolerances::pairs_per_list)) {
         for (const int c : tree_clusters_) memory_.rooms[c] = Box{};
         return false;
     }
@@ -328,17 +333,17 @@ bool SelfContactLists::find_lists(SelfGroup& group, long most) {
     for (const auto& [first, second] : cluster_pairs_) {
         const int a = tree_clusters_[first], b = tree_clusters_[second];
         if (cloth_.pairs.of(cloth_.clusters[a].cloth, cloth_.clusters[b].cloth).contact)
-            next_lists_.push_back(take_list(group, a, b));
+            next_lists_.push_back(take_list(island, a, b));
     }
-    std::swap(group.lists, next_lists_);
+    std::swap(island.lists, next_lists_);
     next_lists_.clear();
     return true;
 }
 
-/// The list of two clusters, from where there is one; else one without room.
-SelfList SelfContactLists::take_list(SelfGroup& group, int first, int second) {
+/// The list of two clusters, taken from where it exists; otherwise one without room.
+SelfList SelfContactLists::take_list(Island& island, int first, int second) {
     const std::pair wanted(first, second);
-    for (std::vector<SelfList>* lists : {&group.lists, &loose_lists_}) {
+    for (std::vector<SelfList>* lists : {&island.lists, &loose_lists_}) {
         const auto found = std::lower_bound(lists->begin(), lists->end(), wanted,
                                             [](const SelfList& list, const auto& key) { return clusters_of(list) < key; });
         if (found != lists->end() && clusters_of(*found) == wanted) return std::move(*found);
@@ -347,10 +352,10 @@ SelfList SelfContactLists::take_list(SelfGroup& group, int first, int second) {
 }
 
 void SelfContactLists::set_motion(std::span<const Vec3> from, std::span<const Vec3> to) {
-    for_stretches(workers_, cloth_.clusters.size(), tolerances::self_clusters_a_part,
-                  [&](std::size_t first, std::size_t last, int) {
-                      for (std::size_t c = first; c < last; ++c) set_displacements(cloth_.clusters[c], from, to);
-                  });
+    parallel_for_chunks(workers_, cloth_.clusters.size(), tolerances::self_clusters_a_part,
+                        [&](std::size_t first, std::size_t last, int) {
+                            for (std::size_t c = first; c < last; ++c) set_displacements(cloth_.clusters[c], from, to);
+                        });
 }
 
 double SelfContactLists::shrink(const SelfList& list) const {

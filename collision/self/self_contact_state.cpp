@@ -15,7 +15,7 @@ void exchange(Archive& archive, Value& pair) {
 
 template <class Archive, OfType<SelfPairRecord> Value>
 void exchange(Archive& archive, Value& record) {
-    archive(record.pair, record.of_seam);
+    archive(record.pair, record.seam_activation_distance);
 }
 
 template <class Archive, OfType<SelfList> Value>
@@ -23,9 +23,9 @@ void exchange(Archive& archive, Value& list) {
     archive(list.first, list.second, list.pairs, list.records, list.travel, list.room, list.smallest_reach, list.thickness);
 }
 
-template <class Archive, OfType<SelfGroup> Value>
-void exchange(Archive& archive, Value& group) {
-    archive(group.cloths, group.lists);
+template <class Archive, OfType<Island> Value>
+void exchange(Archive& archive, Value& island) {
+    archive(island.cloths, island.lists);
 }
 
 namespace {
@@ -65,12 +65,14 @@ bool has_good_records(const SelfList& list) {
     return with_record == static_cast<long>(list.records.size());
 }
 
-/// Of the lists of a group, whose number each of its clusters has.
-void check(const SelfGroup& group, int number, std::span<const int> group_of_cluster, const ClothSurface& surface,
+/// Checks the lists of an island, whose number each of its clusters has.
+void check(const Island& island, int number, std::span<const int> island_of_cluster, const ClothSurface& surface,
            const StateReader& state) {
-    const auto has = [&](int cluster) { return below(cluster, group_of_cluster.size()) && group_of_cluster[cluster] == number; };
+    const auto has = [&](int cluster) {
+        return below(cluster, island_of_cluster.size()) && island_of_cluster[cluster] == number;
+    };
     std::pair last(-1, -1);
-    for (const SelfList& list : group.lists) {
+    for (const SelfList& list : island.lists) {
         const std::pair clusters(list.first, list.second);
         state.demand(clusters > last && list.first <= list.second && has(list.first) && has(list.second),
                      "a cluster that there is not");
@@ -80,37 +82,37 @@ void check(const SelfGroup& group, int number, std::span<const int> group_of_clu
     }
 }
 
-void check(const SelfListsMemory& memory, const SelfContactLists& lists, const StateReader& state) {
+void check(const SelfListsState& memory, const SelfContactLists& lists, const StateReader& state) {
     state.demand(memory.seen.size() == lists.memory().seen.size(), "a wrong number of vertices");
     state.demand(memory.rooms.size() == lists.cluster_count(), "a wrong number of clusters");
-    std::vector<int> group_of_cluster(lists.cluster_count(), -1);
+    std::vector<int> island_of_cluster(lists.cluster_count(), -1);
     std::vector<bool> grouped(lists.cloth_count(), false);
     std::size_t cloths = 0;
     int number = 0, last = -1;
-    for (const SelfGroup& group : memory.groups) {
-        state.demand(!group.cloths.empty() && group.cloths.front() > last, "groups out of order");
-        last = group.cloths.front();
-        for (const int cloth : group.cloths) {
+    for (const Island& island : memory.islands) {
+        state.demand(!island.cloths.empty() && island.cloths.front() > last, "groups out of order");
+        last = island.cloths.front();
+        for (const int cloth : island.cloths) {
             state.demand(below(cloth, lists.cloth_count()) && !grouped[cloth] && cloth >= last, "a cloth in no group, or in two");
             grouped[cloth] = true;
-            for (const int cluster : lists.clusters(cloth)) group_of_cluster[cluster] = number;
+            for (const int cluster : lists.clusters(cloth)) island_of_cluster[cluster] = number;
         }
-        cloths += group.cloths.size();
-        check(group, number++, group_of_cluster, lists.surface(), state);
+        cloths += island.cloths.size();
+        check(island, number++, island_of_cluster, lists.surface(), state);
     }
-    state.demand(memory.groups.empty() || cloths == lists.cloth_count(), "a cloth in no group, or in two");
+    state.demand(memory.islands.empty() || cloths == lists.cloth_count(), "a cloth in no group, or in two");
 }
 
 }  // namespace
 
 void save(const SelfContactLists& lists, StateWriter& state) {
-    const SelfListsMemory& memory = lists.memory();
-    state(memory.seen, memory.rooms, memory.groups);
+    const SelfListsState& memory = lists.memory();
+    state(memory.seen, memory.rooms, memory.islands);
 }
 
-SelfListsMemory restored_memory(const SelfContactLists& lists, StateReader& state) {
-    SelfListsMemory memory;
-    state(memory.seen, memory.rooms, memory.groups);
+SelfListsState restored_state(const SelfContactLists& lists, StateReader& state) {
+    SelfListsState memory;
+    state(memory.seen, memory.rooms, memory.islands);
     check(memory, lists, state);
     return memory;
 }

@@ -5,10 +5,10 @@
 
 namespace percale {
 
-/// Everything that later calls depend on: a resumed run does not depend on when lists were made.
+/// Saves everything that later calls depend on: a resumed run does not depend on when lists were made.
 void save(const SelfContactLists& lists, StateWriter& state);
 
-/// What was saved by lists of the same cloth as these. Throws SceneError for what is none of these.
-SelfListsMemory restored_memory(const SelfContactLists& lists, StateReader& state);
+/// The state that lists of the same cloth as these have saved. Throws SceneError for any other.
+SelfListsState restored_state(const SelfContactLists& lists, StateReader& state);
 
 }  // namespace percale

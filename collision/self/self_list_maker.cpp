@@ -17,15 +17,15 @@ Box box_of(std::span<const int> vertices, std::span<const Vec3> positions) {
 
 /// m, thickness h of two features of one cloth that are `distance` apart at rest.
 double thickness_from_rest(double distance, double h) {
-    return std::min(h, std::max(tolerances::contact_of_rest * distance, tolerances::least_of_rest * h));
+    return std::min(h, std::max(tolerances::rest_activation_ratio * distance, tolerances::min_rest_activation_ratio * h));
 }
 
-/// The pairs that are in contact, with their records.
+/// Copies the pairs that are in contact, with their records.
 void keep_contacts(const SelfList& from, SelfList& to) {
     to.pairs.clear();
     to.records.clear();
     for (const SelfPair& pair : from.pairs) {
-        if (from.zone(pair) == 0.0) continue;
+        if (from.activation_distance(pair) == 0.0) continue;
         const int number = static_cast<int>(to.pairs.size());
         to.records.push_back(from.records[pair.record]);
         to.records.back().pair = number;
@@ -34,10 +34,10 @@ void keep_contacts(const SelfList& from, SelfList& to) {
     }
 }
 
-/// Into memory that is there, if it is not twice as much as they take, or into some more than they take: lists of cloth that
-/// hardly moves allocate nothing.
+/// Copies elements into existing memory unless it is more than twice what they take, or into slightly more than they take: lists
+/// of cloth that hardly moves allocate nothing.
 template <class Element>
-void hand_over(const std::vector<Element>& from, std::vector<Element>& to) {
+void transfer(const std::vector<Element>& from, std::vector<Element>& to) {
     const std::size_t count = from.size();
     if (to.capacity() > 2 * count + tolerances::spare_elements) to = std::vector<Element>();  // `to = {}` would keep it
     if (to.capacity() < count) to.reserve(count + count / 8 + tolerances::spare_elements / 2);
@@ -105,7 +105,8 @@ long SelfListMaker::fill(const SelfCloth& cloth, SelfList& list, std::span<const
     pair_ = cloth.pairs.of(a.cloth, b.cloth);
     keep_contacts(list, old_);
     list.begin(shrink_of(a, b) + a.skin + b.skin);
-    const bool is_fine = tolerances::contact_of_rest * std::min(a.shortest, b.shortest) < std::max(a.thickness, b.thickness);
+    const bool is_fine =
+        tolerances::rest_activation_ratio * std::min(a.shortest, b.shortest) < std::max(a.thickness, b.thickness);
     const double thickness = 0.5 * (a.thickness + b.thickness);
     const Reach reach{.room = list.room, .thickness = thickness, .rest_counts = is_fine && a.cloth == b.cloth};
     const bool one = list.first == list.second;
@@ -118,13 +119,13 @@ long SelfListMaker::fill(const SelfCloth& cloth, SelfList& list, std::span<const
         list.smallest_reach = std::min(list.smallest_reach, pair.reach);
         list.thickness = std::max(list.thickness, pair.thickness);
     }
-    take_over_zones();
-    hand_over(pairs_, list.pairs);
-    hand_over(records_, list.records);
+    take_over_activation_distances();
+    transfer(pairs_, list.pairs);
+    transfer(records_, list.records);
     return considered_;
 }
 
-/// Features of a cluster that come within `limit` of a box.
+/// Finds features of a cluster that come within `limit` of a box.
 void SelfListMaker::find_near(const SelfCluster& cluster, Box other, double limit, Near& near) const {
     other.grow(limit);
     near.vertices.clear();
@@ -158,7 +159,7 @@ void SelfListMaker::pair_vertices(const Near& points, const Near& faces, Reach r
     }
 }
 
-/// Edges of the clusters last found near each other; of `one` cluster each pair once.
+/// Pairs the edges of the clusters last found near each other; of `one` cluster each pair once.
 void SelfListMaker::pair_edges(bool one, Reach reach, std::span<const Vec3> from) {
     for (const int e : near_first_.edges) {
         const auto& [a, b] = cloth_->surface.edges[e].vertex;
@@ -176,17 +177,18 @@ void SelfListMaker::pair_edges(bool one, Reach reach, std::span<const Vec3> from
     }
 }
 
-/// m, which the thickness of a pair of features of one cloth with these vertices does not exceed: most of what is near each other
-/// in a fine cloth is so at rest, and cannot come into contact for that.
-double SelfListMaker::thickness_by_rest(std::span<const int> first, std::span<const int> second, double most) const {
+/// m, upper bound of the thickness of a pair of features of one cloth with these vertices: most features near each other in fine
+/// cloth are near at rest and hence cannot come into contact.
+double SelfListMaker::thickness_by_rest(std::span<const int> first, std::span<const int> second, double max) const {
     double square = std::numeric_limits<double>::infinity();
     for (const int a : first) {
         for (const int b : second) square = std::min(square, (cloth_->rest[a] - cloth_->rest[b]).squaredNorm());
     }
-    return thickness_from_rest(std::sqrt(square), most);
+    return thickness_from_rest(std::sqrt(square), max);
 }
 
-/// m, through a seam near the pair; 0 where it is sewn together or overlaps there, infinity without such a seam.
+/// m, distance at rest through a seam near the pair; 0 where the pair is sewn together or overlaps there, infinity without such a
+/// seam.
 double SelfListMaker::sewn_distance(const SelfPair& pair) const {
     const std::span<const int> vertices = pair.vertex;
     const std::size_t of_first = pair.shape == PairShape::edge_edge ? 2 : 1;
@@ -194,16 +196,17 @@ double SelfListMaker::sewn_distance(const SelfPair& pair) const {
     return cloth_->sewn.overlap(first, second) ? 0.0 : cloth_->sewn.distance(first, second);
 }
 
-/// Sets the thickness of a pair near a seam, by the paths through it between vertices.
-void SelfListMaker::set_of_seam(SelfPair& pair, std::array<double, 4>& of_seam) const {
+/// Sets the thickness of a pair near a seam by the paths between vertices through the seam.
+void SelfListMaker::set_seam_activation_distance(SelfPair& pair, std::array<double, 4>& seam_activation_distance) const {
     const bool edges = pair.shape == PairShape::edge_edge;
-    double most = 0.0;
+    double max = 0.0;
     for (int k = 0; k < (edges ? 4 : 3); ++k) {
         const std::array first{pair.vertex[edges ? k / 2 : 0]}, second{pair.vertex[edges ? 2 + k % 2 : 1 + k]};
-        of_seam[k] = std::min(pair.thickness, tolerances::contact_of_seam * cloth_->sewn.distance(first, second));
-        most = std::max(most, of_seam[k]);
+        seam_activation_distance[k] =
+            std::min(pair.thickness, tolerances::seam_activation_ratio * cloth_->sewn.distance(first, second));
+        max = std::max(max, seam_activation_distance[k]);
     }
-    pair.thickness = most;
+    pair.thickness = max;
 }
 
 /// Keeps a pair that may come into contact if its distance can shrink by `room`.
@@ -217,19 +220,20 @@ void SelfListMaker::consider(SelfPair pair, double room, std::span<const Vec3> f
     const bool one_cloth = cloth_->cloth[pair.vertex[0]] == cloth_->cloth[pair.vertex[3]];
     const double through_seam = sewn_distance(pair);
     if (through_seam == 0.0) return;
-    std::array<double, 4> of_seam = away_from_seams;
-    if (tolerances::contact_of_seam * through_seam < pair.thickness) set_of_seam(pair, of_seam);
+    std::array<double, 4> seam_activation_distance = away_from_seams;
+    if (tolerances::seam_activation_ratio * through_seam < pair.thickness)
+        set_seam_activation_distance(pair, seam_activation_distance);
     if (one_cloth) pair.thickness = std::min(pair.thickness, thickness_from_rest(self_distance(pair, cloth_->rest), thickness));
     if (pair.reach >= pair.thickness + room) return;
-    if (of_seam != away_from_seams) {
+    if (seam_activation_distance != away_from_seams) {
         pair.record = static_cast<int>(records_.size());
-        records_.push_back({.pair = static_cast<int>(pairs_.size()), .of_seam = of_seam});
+        records_.push_back({.pair = static_cast<int>(pairs_.size()), .seam_activation_distance = seam_activation_distance});
     }
     pairs_.push_back(pair);
 }
 
-/// What was a contact in the list being replaced stays one.
-void SelfListMaker::take_over_zones() {
+/// A contact in the list being replaced stays one.
+void SelfListMaker::take_over_activation_distances() {
     for (std::size_t i = 0; i < pairs_.size() && !old_.pairs.empty(); ++i) {
         SelfPair& pair = pairs_[i];
         const auto same = [&](const SelfPair& old) { return old.shape == pair.shape && old.feature == pair.feature; };
@@ -239,7 +243,7 @@ void SelfListMaker::take_over_zones() {
             pair.record = static_cast<int>(records_.size());
             records_.push_back({.pair = static_cast<int>(i)});
         }
-        records_[pair.record].zone = old_.zone(*found);
+        records_[pair.record].activation_distance = old_.activation_distance(*found);
     }
 }
 

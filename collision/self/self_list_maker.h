@@ -17,7 +17,7 @@ struct SelfCluster {
     std::vector<int> vertices, edges, triangles;  // owned
     std::vector<int> all_vertices;
     int cloth = -1;
-    double thickness = 0.0;                                     // m, largest, what is said of pairs of its cloth included
+    double thickness = 0.0;                                     // m, largest, those set for pairs of its cloth included
     double skin = 0.0;                                          // m, largest
     double shortest = std::numeric_limits<double>::infinity();  // m, edge at rest
     Vec3 mean = Vec3::Zero();                                   // m, of its vertices' displacements in a move
@@ -29,7 +29,7 @@ struct SelfCluster {
 /// m, bound of how much distances of two clusters can shrink in a move.
 inline double shrink_of(const SelfCluster& a, const SelfCluster& b) { return a.spread + b.spread + (a.mean - b.mean).norm(); }
 
-/// All cloth that meets cloth, as its lists are made of it.
+/// All cloth that meets cloth, as input for its lists.
 struct SelfCloth {
     std::vector<double> thickness;  // m, of each vertex
     std::vector<int> cloth;
@@ -40,7 +40,7 @@ struct SelfCloth {
     std::vector<SelfCluster> clusters = {};
     std::vector<Box> vertex_boxes = {}, edge_boxes = {}, triangle_boxes = {};  // m, where a move begins
 
-    /// A move begins: no box is known.
+    /// Marks all boxes as unknown at the start of a move.
     void forget_boxes();
     void set_box(int cluster, std::span<const Vec3> positions);
     void set_feature_boxes(int cluster, std::span<const Vec3> positions);
@@ -56,27 +56,29 @@ struct SelfList {
     double smallest_reach = 0.0;  // smallest SelfPair::reach
     double thickness = 0.0;       // m, largest of its pairs
 
-    /// m, below what the contact of a pair of the list began; 0: it is none.
-    double zone(const SelfPair& pair) const { return pair.record < 0 ? 0.0 : records[pair.record].zone; }
-    const std::array<double, 4>& of_seam(const SelfPair& pair) const {
-        return pair.record < 0 ? away_from_seams : records[pair.record].of_seam;
+    /// m, activation distance of the contact of a pair of the list; 0: it is no contact.
+    double activation_distance(const SelfPair& pair) const {
+        return pair.record < 0 ? 0.0 : records[pair.record].activation_distance;
     }
-    /// Of a pair of the list, made where it has none.
+    const std::array<double, 4>& seam_activation_distance(const SelfPair& pair) const {
+        return pair.record < 0 ? away_from_seams : records[pair.record].seam_activation_distance;
+    }
+    /// The record of a pair of the list, which is made where it has none.
     SelfPairRecord& record_of(SelfPair& pair);
 
-    /// Without a pair, to be filled.
+    /// Makes the list empty, to be filled.
     void begin(double with_room);
-    /// Without a pair, and without memory for one.
+    /// Makes the list empty and frees its memory.
     void clear(double with_room);
-    /// Keeps contacts alone: it has to be made anew.
+    /// Keeps contacts alone: the list has to be rebuilt.
     void give_up();
 };
 
 /// Finds the pairs of lists. Each belongs to one thread.
 class SelfListMaker {
 public:
-    /// Makes a list of two boxed clusters anew: all pairs that can come into contact while they move against each other by no
-    /// more than the list's new room. Contacts stay contacts. Returns how many pairs it has looked at.
+    /// Rebuilds the list of two boxed clusters: all pairs that can come into contact while the clusters move against each other
+    /// by no more than the list's new room. Contacts stay contacts. Returns the number of pairs considered.
     long fill(const SelfCloth& cloth, SelfList& list, std::span<const Vec3> from);
 
 private:
@@ -84,9 +86,9 @@ private:
         std::vector<int> vertices, edges, triangles;
     };
     struct Reach {
-        double room = 0.0;         // m, pairs whose distance is below their thickness and this are kept
-        double thickness = 0.0;    // m, no pair has more
-        bool rest_counts = false;  // of one cloth, so fine that it is the distance at rest that bounds most thicknesses
+        double room = 0.0;         // m, pairs whose distance is below their thickness plus this are kept
+        double thickness = 0.0;    // m, upper bound of all pairs
+        bool rest_counts = false;  // of one cloth, so fine that the distance at rest bounds most thicknesses
 
         double limit() const { return thickness + room; }
     };
@@ -94,15 +96,15 @@ private:
     void find_near(const SelfCluster& cluster, Box other, double limit, Near& near) const;
     void pair_vertices(const Near& points, const Near& faces, Reach reach, std::span<const Vec3> from);
     void pair_edges(bool one, Reach reach, std::span<const Vec3> from);
-    void set_of_seam(SelfPair& pair, std::array<double, 4>& of_seam) const;
-    double thickness_by_rest(std::span<const int> first, std::span<const int> second, double most) const;
+    void set_seam_activation_distance(SelfPair& pair, std::array<double, 4>& seam_activation_distance) const;
+    double thickness_by_rest(std::span<const int> first, std::span<const int> second, double max) const;
     double sewn_distance(const SelfPair& pair) const;
     void consider(SelfPair pair, double room, std::span<const Vec3> from);
-    void take_over_zones();
+    void take_over_activation_distances();
 
     const SelfCloth* cloth_ = nullptr;
     ClothPair pair_;                       // of the clusters
-    SelfList old_;                         // the contacts of the list being made anew
+    SelfList old_;                         // the contacts of the list being rebuilt
     std::vector<SelfPair> pairs_;          // found for it
     std::vector<SelfPairRecord> records_;  // of these
     Near near_first_, near_second_;

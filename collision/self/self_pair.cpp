@@ -22,21 +22,21 @@ void set_direction(const Vec3& apart, SelfPairContact& contact) {
     if (contact.distance > 0.0) contact.direction = apart / contact.distance;
 }
 
-/// Whether cloth at `foot` goes away from what lies in the direction `towards`, on to a neighbouring vertex; up to rounding, so
-/// that above an edge of flat cloth at least one triangle stands for the contact.
+/// Whether cloth from `foot` to a neighbouring vertex falls away from the direction `towards`, up to rounding, so that above an
+/// edge of flat cloth at least one triangle represents the contact.
 bool falls(const Vec3& neighbour, const Vec3& foot, const Vec3& towards) {
     const Vec3 along = neighbour - foot;
     return along.dot(towards) <= tolerances::rising_sine * along.norm();
 }
 
-bool edge_stands(const ClothSurface& surface, int triangle, int edge_index, const Vec3& foot, const Vec3& towards,
-                 std::span<const Vec3> x) {
+bool edge_represents(const ClothSurface& surface, int triangle, int edge_index, const Vec3& foot, const Vec3& towards,
+                     std::span<const Vec3> x) {
     const ClothSurface::Edge& edge = surface.edges[edge_index];
     if (edge.triangle[0] != triangle) return false;
     return edge.triangle[1] < 0 || falls(x[edge.opposite[1]], foot, towards);
 }
 
-bool vertex_stands(const ClothSurface& surface, int triangle, int vertex, const Vec3& towards, std::span<const Vec3> x) {
+bool vertex_represents(const ClothSurface& surface, int triangle, int vertex, const Vec3& towards, std::span<const Vec3> x) {
     if (surface.vertex_owner[vertex] != triangle) return false;
     const std::span<const int> ring = surface.neighbours(vertex);
     return std::all_of(ring.begin(), ring.end(), [&](int next) { return falls(x[next], x[vertex], towards); });
@@ -47,22 +47,22 @@ SelfPairContact vertex_face(const SelfPair& pair, std::span<const Vec3> x, const
     SelfPairContact contact{.weight = {1.0, -closest.weight[0], -closest.weight[1], -closest.weight[2]}};
     set_direction(x[pair.vertex[0]] - closest.point, contact);
     const int triangle = pair.feature[1];
-    bool stands = true;
+    bool represents = true;
     if (closest.region == TriangleRegion::edge) {
         const int edge = surface.triangle_edges[triangle][closest.corner];
-        stands = edge_stands(surface, triangle, edge, closest.point, contact.direction, x);
+        represents = edge_represents(surface, triangle, edge, closest.point, contact.direction, x);
     } else if (closest.region == TriangleRegion::vertex) {
         const int corner = pair.vertex[1 + closest.corner];
-        // Of two vertices the one with the lower number is the vertex, the other the corner of a face.
-        stands = pair.vertex[0] < corner && vertex_stands(surface, triangle, corner, contact.direction, x);
+        // If two vertices are closest, the one with the lower number is the vertex, the other the corner of a face.
+        represents = pair.vertex[0] < corner && vertex_represents(surface, triangle, corner, contact.direction, x);
     }
-    contact.relative_zone = stands ? 1.0 : 0.0;
+    contact.activation_ratio = represents ? 1.0 : 0.0;
     return contact;
 }
 
-/// How an edge crosses another that lies in the direction `towards`: 1 as a ridge or boundary, 1/2 in flat cloth, 0 in a valley,
-/// and evenly in between, by the face beside it that rises most.
-double edge_zone(const ClothSurface::Edge& edge, const Vec3& foot, const Vec3& towards, std::span<const Vec3> x) {
+/// Activation ratio of an edge that crosses another in the direction `towards`: 1 for a ridge or boundary, 1/2 in flat cloth, 0
+/// in a valley, and linear in between, by the steepest rise of the faces beside it.
+double edge_activation_ratio(const ClothSurface::Edge& edge, const Vec3& foot, const Vec3& towards, std::span<const Vec3> x) {
     if (edge.opposite[1] < 0) return 1.0;
     double highest = -tolerances::sharp_sine;
     for (const int vertex : edge.opposite) {
@@ -74,7 +74,7 @@ double edge_zone(const ClothSurface::Edge& edge, const Vec3& foot, const Vec3& t
 
 /// |e x f|^2 = (|e| |f| sin)^2 of two edges up to which they count as parallel, from |e|^2, |f|^2 and their thickness.
 double square_of_parallel(double first, double second, double thickness) {
-    const double sine = tolerances::least_crossing_sine, rise = tolerances::least_crossing_rise * thickness;
+    const double sine = tolerances::min_crossing_sine, rise = tolerances::min_crossing_rise * thickness;
     return std::min(sine * sine * first * second, rise * rise * std::max(first, second));
 }
 
@@ -90,15 +90,17 @@ SelfPairContact edge_edge(const SelfPair& pair, std::span<const Vec3> x, const C
                  square = (b - a).cross(d - c).squaredNorm();
     contact.crossing = square > parallel ? std::min(1.0, std::sqrt(square / parallel) - 1.0) : 0.0;
     if (contact.crossing == 0.0 || s <= 0.0 || s >= 1.0 || t <= 0.0 || t >= 1.0) return contact;
-    contact.relative_zone = contact.crossing * std::min(edge_zone(surface.edges[pair.feature[0]], first, -contact.direction, x),
-                                                        edge_zone(surface.edges[pair.feature[1]], second, contact.direction, x));
+    contact.activation_ratio =
+        contact.crossing * std::min(edge_activation_ratio(surface.edges[pair.feature[0]], first, -contact.direction, x),
+                                    edge_activation_ratio(surface.edges[pair.feature[1]], second, contact.direction, x));
     return contact;
 }
 
 }  // namespace
 
-double thickness_at(const SelfPair& pair, const std::array<double, 4>& of_seam, const std::array<double, 4>& weight) {
-    const std::array<double, 4>&w = weight, &at = of_seam;
+double activation_distance_at(const SelfPair& pair, const std::array<double, 4>& seam_activation_distance,
+                              const std::array<double, 4>& weight) {
+    const std::array<double, 4>&w = weight, &at = seam_activation_distance;
     if (at[0] == no_seam) return pair.thickness;
     const double between = pair.shape == PairShape::edge_edge
                                ? -w[0] * (w[2] * at[0] + w[3] * at[1]) - w[1] * (w[2] * at[2] + w[3] * at[3])

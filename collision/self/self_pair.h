@@ -18,18 +18,18 @@ struct SelfPair {
     std::array<int, 4> vertex{-1, -1, -1, -1};  // the vertex and the face's corners; the ends of both edges
     std::array<int, 2> feature{-1, -1};         // vertex and triangle; two edges
     int record = -1;                            // its number in SelfList::records; -1: it has none
-    double thickness = 0.0;                     // m, below it they may be in contact
+    double thickness = 0.0;                     // m, they may be in contact below it
     double reach = 0.0;  // distance + travel when last measured: reach - travel bounds the distance from below
 };
 
-/// What few pairs have beside: those near a seam, and those that are in contact or have been. Most of the memory of a cloth that
-/// lies in folds is pairs.
+/// Additional data of few pairs: those near a seam, and those that are or were in contact. Pairs take most of the memory of a
+/// cloth that lies in folds.
 struct SelfPairRecord {
     int pair = -1;  // its number in SelfList::pairs
-    /// m, near a seam: below what they are in contact where the vertex and corner k are closest, or the ends (0, 2), (0, 3),
-    /// (1, 2) and (1, 3) of the edges.
-    std::array<double, 4> of_seam = away_from_seams;
-    double zone = 0.0;  // m, below what its contact began since the last refresh; 0: it is none
+    /// m, near a seam: activation distance where the vertex and corner k are closest, or the ends (0, 2), (0, 3), (1, 2) and (1,
+    /// 3) of the edges.
+    std::array<double, 4> seam_activation_distance = away_from_seams;
+    double activation_distance = 0.0;  // m, of its contact since the last update_candidates; 0: it is no contact
 };
 
 /// The exact closest points of a pair.
@@ -37,22 +37,23 @@ struct SelfPairContact {
     double distance = 0.0;           // m
     std::array<double, 4> weight{};  // of the pair's vertices: > 0 on the first side, < 0 on the second, sum 0
     Vec3 direction = Vec3::Zero();   // unit, second side towards first
-    /// Fraction of the thickness below which the pair stands for the contact: 1 where it is a local minimum of the distance
+    /// Fraction of the thickness below which the pair represents the contact: 1 where it is a local minimum of the distance
     /// (closest points inside the face, or on its edges and corners where the faces around fall away; inside two edges that cross
-    /// as ridges), 1/2 for edges that cross in flat cloth, where vertices and faces meet first, as much in between as the cloth
-    /// bends, else 0. Of closest points that several pairs share one pair has them. Not filled in for edges farther apart than
-    /// the pair's thickness.
-    double relative_zone = 0.0;
-    /// Of edges: 0 where they are nearly parallel and their closest points jump from end to end, 1 from twice that angle on. It
-    /// is a factor in relative_zone.
+    /// as ridges), 1/2 for edges that cross in flat cloth, where vertices and faces meet first, in between according to the bend
+    /// of the cloth, else 0. One pair represents closest points that several pairs share. It is not computed for edges farther
+    /// apart than the pair's thickness.
+    double activation_ratio = 0.0;
+    /// For edges: 0 where they are nearly parallel and their closest points jump from end to end, 1 from twice that angle on. It
+    /// is a factor of activation_ratio.
     double crossing = 1.0;
 };
 
-/// m, below which a pair is in contact where these weights say (of_seam: SelfPairRecord): between corners it passes from the
-/// one's to the other's, so that closest points that go from one face to the next meet no other thickness there.
-double thickness_at(const SelfPair& pair, const std::array<double, 4>& of_seam, const std::array<double, 4>& weight);
+/// m, activation distance of a pair whose closest points have these weights (seam_activation_distance: SelfPairRecord): it is
+/// interpolated between corners, so that it is continuous where closest points pass from one face to the next.
+double activation_distance_at(const SelfPair& pair, const std::array<double, 4>& seam_activation_distance,
+                              const std::array<double, 4>& weight);
 
-/// m.
+/// Distance of the pair, m.
 double self_distance(const SelfPair& pair, std::span<const Vec3> positions);
 
 SelfPairContact self_contact(const SelfPair& pair, std::span<const Vec3> positions, const ClothSurface& surface);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double unreachable = std::numeric_limits<double>::infinity();
 
-/// Shortest paths from one place, as they are found.
+/// Shortest paths from one place, found in ascending order.
 class SewnFront {
 public:
     explicit SewnFront(double reach) : reach_(reach) {}
@@ -22,14 +22,14 @@ public:
     void reach_vertex(int vertex, double length) {
         if (length <= reach_) start_at(vertex, length);
     }
-    /// However long the way is.
+    /// Starts there however long the path is.
     void start_at(int vertex, double length) {
         const auto [known, is_new] = length_.try_emplace(vertex, length);
         if (!is_new && known->second <= length) return;
         known->second = length;
         open_.emplace(length, vertex);
     }
-    /// The nearest vertex from which nothing was reached yet, with its length; -1: there is none.
+    /// The nearest vertex whose neighbours are not reached yet, with its length; -1: there is none.
     std::pair<int, double> next() {
         while (!open_.empty()) {
             const auto [length, vertex] = open_.top();
@@ -84,7 +84,7 @@ void SewnRest::make_knots(std::span<const Stitch> stitches) {
     }
 }
 
-/// Of an edge with several points each end is that of the nearest.
+/// Each end of an edge with several points belongs to the nearest of them.
 void SewnRest::find_ends(DisjointSets& sewn) {
     struct Point {
         double share;
@@ -112,7 +112,7 @@ void SewnRest::find_paths(int knot, const ClothSurface& surface, std::span<const
     reach_knot(knot, 0.0);
     for (const Stitch& point : knots_[knot].points) {
         const double edge = (rest[point.to] - rest[point.from]).norm();
-        // Whatever holds the edge is at the knot, and has to know of it.
+        // Every feature that holds the edge is at the knot and needs a path to it.
         front.start_at(point.from, point.share * edge);
         front.start_at(point.to, (1.0 - point.share) * edge);
     }
@@ -125,7 +125,7 @@ void SewnRest::find_paths(int knot, const ClothSurface& surface, std::span<const
     for (const auto& [vertex, length] : front.lengths()) paths_[vertex].push_back({knot, length});
 }
 
-/// Whether one of its points, if no vertex of it, is on the feature.
+/// Whether one of the knot's points that is no vertex is on the feature.
 bool SewnRest::lies_at(std::span<const int> feature, int knot) const {
     const std::vector<Stitch>& points = knots_[knot].points;
     return std::any_of(points.begin(), points.end(),
@@ -136,7 +136,7 @@ bool SewnRest::is_at(std::span<const int> feature, int knot) const {
     return lies_at(feature, knot) || std::any_of(feature.begin(), feature.end(), [&](int v) { return knot_of_[v] == knot; });
 }
 
-/// Whether the feature holds such an end of a knot at which the other is.
+/// Whether the feature holds such an end of a knot that the other feature is at.
 bool SewnRest::ends_at(std::span<const int> feature, std::span<const int> other) const {
     return std::any_of(feature.begin(), feature.end(), [&](int vertex) {
         const std::vector<int>& knots = ends_[vertex];
@@ -177,7 +177,7 @@ public:
 private:
     const SewnRest& sewn_;
     std::span<const int> feature_;
-    std::array<std::span<const Path>, 3> left_;  // what is left of each vertex that has any
+    std::array<std::span<const Path>, 3> left_;  // remaining paths of each vertex that has any
     int count_ = 0;
     Path here_;
 };

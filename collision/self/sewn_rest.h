@@ -10,23 +10,22 @@
 
 namespace percale {
 
-/// How far features of cloth lie apart at rest on the path through a seam, as if it were closed. What stitches join is a knot:
-/// vertices that are one, and points of edges where a vertex of it lies. Each vertex knows its paths along edges to the knots
+/// How far features of cloth lie apart at rest on the path through a seam, as if it were closed. A knot is what stitches join:
+/// vertices that are one, and points of edges at which such a vertex lies. Each vertex knows its paths along edges to the knots
 /// near it.
 class SewnRest {
 public:
     SewnRest() = default;
-    /// `rest`: m, of all vertices. Paths longer than `reach`, m, are left out, but for those from a point of an
-    /// edge to its ends.
+    /// `rest`: m, of all vertices. Paths longer than `reach`, m, are left out, except those from a point of an edge to its ends.
     SewnRest(const ClothSurface& surface, std::span<const Stitch> stitches, std::span<const Vec3> rest, double reach);
 
-    /// m, between two features given by their vertices, three at most; 0 where both are at one knot, infinity where no knot is
+    /// m, between two features given by their vertices, at most three; 0 where both are at one knot, infinity where no knot is
     /// near both.
     double distance(std::span<const int> first, std::span<const int> second) const;
 
-    /// Whether one of them is at a knot, and the other holds an end of an edge with a point of it, of several points the nearest
-    /// to that end. Where the sides of a seam have other vertices, that end lies on the other side's edge, whatever `distance`
-    /// says of the way along the seam.
+    /// Whether one feature is at a knot, and the other holds an end of an edge with a point of the knot, of several points the
+    /// nearest to that end. Where the sides of a seam have different vertices, that end lies on the other side's edge, whatever
+    /// `distance` is along the seam.
     bool overlap(std::span<const int> first, std::span<const int> second) const;
 
 private:

@@ -13,7 +13,7 @@ bool share_a_vertex(const std::array<int, 2>& edge, const Triangle& triangle) {
                        [&](int v) { return std::find(triangle.begin(), triangle.end(), v) != triangle.end(); });
 }
 
-/// Of the line in which a face at an edge meets a plane, the direction into the face; zero where they are parallel.
+/// Direction into the face of the line in which a face at an edge meets a plane; zero where they are parallel.
 Vec3 into_face(const Vec3& plane_normal, const std::array<Vec3, 3>& face) {
     const auto& [a, b, opposite] = face;
     const Vec3 along = plane_normal.cross((b - a).cross(opposite - a));

@@ -21,7 +21,7 @@ double half_solid_angle(const Vec3& point, const Vec3& first, const Vec3& second
     return std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + a.dot(c) * lb + b.dot(c) * la);
 }
 
-/// Those of a grid of places in a box that are inside the obstacle; none is in the plane of a flat box.
+/// The places of a grid in a box that are inside the obstacle; none is in the plane of a flat box.
 std::vector<Vec3> places_inside(certificate::Box box, const SolidObstacle& obstacle) {
     constexpr int count = tolerances::enclosure_places;
     static_assert(count % 2 == 0);
@@ -55,14 +55,14 @@ Enclosure::Enclosure(std::vector<Triangle> triangles, std::span<const Vec3> posi
 }
 
 bool Enclosure::lost(std::span<const Vec3> positions) const {
-    if (static_cast<int>(surrounded_.size()) < tolerances::least_surrounded) return false;
+    if (static_cast<int>(surrounded_.size()) < tolerances::min_surrounded) return false;
     const std::vector<Vec3> centres = middles(positions);
     const auto left = static_cast<std::size_t>(std::count_if(
         surrounded_.begin(), surrounded_.end(), [&](const Vec3& place) { return surrounds(place, positions, centres); }));
     return 2 * left < surrounded_.size();
 }
 
-/// The edges that one triangle has; those that hang together by vertices are a rim.
+/// Finds the edges of only one triangle; those that are connected by vertices form a rim.
 void Enclosure::find_rims(std::size_t vertex_count) {
     std::set<std::pair<int, int>> edges;
     for (const Triangle& t : triangles_) {
@@ -101,7 +101,7 @@ bool Enclosure::surrounds(const Vec3& place, std::span<const Vec3> x, std::span<
     return std::abs(sum) > std::numbers::pi;
 }
 
-/// Of the rims, m.
+/// The middles of the rims, m.
 std::vector<Vec3> Enclosure::middles(std::span<const Vec3> positions) const {
     std::vector<Vec3> sum(rim_count_, Vec3::Zero());
     std::vector<int> count(rim_count_, 0);

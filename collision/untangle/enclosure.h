@@ -9,10 +9,10 @@
 
 namespace percale {
 
-/// What a piece of cloth surrounds of an obstacle: places inside the obstacle about which the solid angle of the cloth is more
-/// than half of all directions, each of its rims closed by a fan about the rim's middle. Only a tube surrounds something, a piece
-/// with two rims or more, and only what passes through two of them while part of the cloth is outside: a skirt a waist, but not
-/// the floor that it dips into. An open obstacle has no inside and is never surrounded.
+/// The part of an obstacle that a piece of cloth surrounds: places inside the obstacle about which the solid angle of the cloth
+/// is more than half of all directions, each of its rims closed by a fan about the rim's middle. Only a tube, a piece with two
+/// rims or more, surrounds something, and only what passes through two of them while part of the cloth is outside: a skirt
+/// surrounds a waist, but not the floor that it dips into. An open obstacle has no inside and is never surrounded.
 class Enclosure {
 public:
     /// `triangles`: of a connected piece, wound alike.

@@ -34,8 +34,8 @@ public:
         add_normals();
     }
 
-    /// The nearest place within reach of a vertex of another sheet where both face the same side, which those of the other side
-    /// of a limb do not; nothing where there is none, or where it lies on a rim.
+    /// The nearest place within reach of a vertex of another sheet where both face the same side, which excludes the other side
+    /// of a limb; nothing where there is none, or where it lies on a rim.
     std::optional<Foot> foot_of(const Sheet& other, int vertex) const {
         const Vec3& point = x_[vertex];
         const Vec3& facing = other.vertex_normal_[vertex];
@@ -55,7 +55,7 @@ public:
         return Foot{triangles_[item], nearest.weight, *normal, normal->dot(point - nearest.point)};
     }
 
-    /// Ascending.
+    /// The vertices, ascending.
     std::set<int> vertices() const {
         std::set<int> all;
         for (const int t : triangles_) all.insert(cloth_.surface.triangles[t].begin(), cloth_.surface.triangles[t].end());
@@ -113,7 +113,7 @@ private:
     std::vector<bool> on_rim_;
 };
 
-/// What is asked of vertices: each goes by the mean.
+/// Requested moves of vertices: each vertex moves by their mean.
 struct Requests {
     std::vector<Vec3> moves;
     std::vector<double> weights;
@@ -132,7 +132,7 @@ std::vector<int> triangles_of(const LayeredCloth& cloth, int layer) {
     return triangles;
 }
 
-/// Asks what brings the upper of two layers outside of the lower one; false where it is.
+/// Requests the moves that bring the upper of two layers outside of the lower one; returns false where it is outside.
 bool ask_outside(const LayeredCloth& cloth, const Sheet& lower, const Sheet& upper, Requests& requests) {
     bool any = false;
     for (const int vertex : upper.vertices()) {
@@ -157,7 +157,7 @@ bool ask_outside(const LayeredCloth& cloth, const Sheet& lower, const Sheet& upp
     return any;
 }
 
-/// One layer outside of each that is below it.
+/// Pushes one layer outside of each that is below it.
 bool push_layer(const LayeredCloth& cloth, int layer, const std::set<int>& layers, std::vector<Vec3>& x) {
     const Sheet upper(cloth, x, triangles_of(cloth, layer));
     Requests requests{std::vector<Vec3>(x.size(), Vec3::Zero()), std::vector<double>(x.size(), 0.0)};
@@ -187,7 +187,7 @@ std::vector<double> outward_signs(std::span<const Triangle> triangles, std::span
         away[cloth[t]] += (centre(triangles[t]) - middle[cloth[t]] / area[cloth[t]]).dot(area_normal(triangles[t], x));
     }
     for (int k = 0; k < cloths; ++k) {
-        signs.push_back(away[k] < -tolerances::least_enclosing * area[k] * std::sqrt(area[k]) ? -1.0 : 1.0);
+        signs.push_back(away[k] < -tolerances::min_enclosing * area[k] * std::sqrt(area[k]) ? -1.0 : 1.0);
     }
     return signs;
 }

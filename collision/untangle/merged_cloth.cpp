@@ -16,7 +16,7 @@ double mean_edge_of(std::span<const Triangle> triangles, std::span<const Vec3> x
     return triangles.empty() ? 0.0 : sum / (3.0 * static_cast<double>(triangles.size()));
 }
 
-/// Those that join two vertices of cloth that are near each other.
+/// The stitches that join two vertices of cloth that are near each other.
 std::vector<Stitch> closed_stitches(const CrossedCloth& cloth, std::span<const Vec3> x, double edges) {
     std::vector<bool> meets(x.size(), false);
     for (const Triangle& t : cloth.triangles) {

@@ -11,17 +11,17 @@
 namespace percale {
 namespace {
 
-/// A state that is becoming clear.
+/// A state that is being untangled.
 struct Tangle {
     const TangledCloth& cloth;
     std::span<const SolidObstacle> obstacles;
     std::vector<Vec3> positions;
     std::vector<int> behind;    // obstacle, -1
-    std::vector<double> limit;  // m, farthest that a vertex may move
-    mutable long searches = 0;  // how often conflicts were looked for
+    std::vector<double> limit;  // m, largest move of a vertex
+    mutable long searches = 0;  // number of searches for conflicts
 
     bool cancelled() const { return cloth.cancel != nullptr && *cloth.cancel; }
-    bool gives_up() const { return searches >= tolerances::most_conflict_searches || cancelled(); }
+    bool gives_up() const { return searches >= tolerances::max_conflict_searches || cancelled(); }
     std::vector<int> conflicts(std::span<const Vec3> places, const std::vector<bool>& moved) const {
         ++searches;
         return find_conflicts(cloth, obstacles, places, moved);
@@ -30,12 +30,12 @@ struct Tangle {
 
 struct Patch {
     std::vector<int> vertices;
-    std::vector<int> deep;  // those that are inside or behind
+    std::vector<int> deep;  // those that are inside or behind it
     int obstacle = -1;
-    double margin = 0.0;  // m, what is to be left between cloth and obstacle
+    double margin = 0.0;  // m, gap to leave between cloth and obstacle
 };
 
-/// One side to leave by: along `direction`, or by the nearest place of the surface.
+/// A route out of the obstacle: along `direction`, or by the nearest place of the surface.
 struct Route {
     bool nearest = false;
     Vec3 direction = Vec3::Zero();
@@ -47,7 +47,7 @@ struct Attempt {
     std::vector<bool> moved;
     double largest_move = 0.0, stretch = 0.0;
 
-    bool tears() const { return stretch > tolerances::most_stretch; }
+    bool tears() const { return stretch > tolerances::max_stretch; }
     bool better_than(const Attempt& other) const {
         if (tears() != other.tears()) return other.tears();
         return tears() ? stretch < other.stretch : largest_move < other.largest_move;
@@ -89,7 +89,7 @@ Patch first_patch(const Tangle& tangle, std::vector<int> conflict) {
     return patch;
 }
 
-/// A direction and its opposite, unless they are there already.
+/// Adds a direction and its opposite, unless they are there already.
 void add_both(const Vec3& direction, std::vector<Vec3>& directions) {
     if (!(direction.norm() > 0.0)) return;
     for (const Vec3& side : {Vec3(direction.normalized()), Vec3(-direction.normalized())}) {
@@ -126,7 +126,7 @@ std::vector<Vec3> possible_directions(const Tangle& tangle, const Patch& patch) 
     return directions;
 }
 
-/// How far the deepest vertex of a patch has to go along a direction, m; nothing where most do not come out there.
+/// How far the deepest vertex of a patch has to go along a direction, m; nothing where most vertices have no exit there.
 std::optional<double> reach_along(const Tangle& tangle, const Patch& patch, const Vec3& direction) {
     const SolidObstacle& obstacle = tangle.obstacles[patch.obstacle];
     double reach = 0.0;
@@ -140,7 +140,7 @@ std::optional<double> reach_along(const Tangle& tangle, const Patch& patch, cons
     return reach + patch.margin;
 }
 
-/// The shortest first.
+/// The route by the nearest places of a watertight obstacle, then those along directions, the shortest first.
 std::vector<Route> possible_routes(const Tangle& tangle, const Patch& patch) {
     std::vector<Route> routes;
     for (const Vec3& direction : possible_directions(tangle, patch)) {
@@ -151,7 +151,7 @@ std::vector<Route> possible_routes(const Tangle& tangle, const Patch& patch) {
     return routes;
 }
 
-/// What leaves, and how.
+/// Obstacle, route and moved vertices of an attempt.
 struct Plan {
     int obstacle;
     const Route& route;
@@ -178,7 +178,7 @@ Attempt attempt(const Tangle& tangle, const Plan& plan, double reach) {
     return result;
 }
 
-/// Adds what is in conflict among the moved vertices to the core; whether anything is in conflict, and whether any is new.
+/// Result of adding the moved vertices in conflict to the core: whether any vertex is in conflict, and whether any is new.
 struct Growth {
     bool conflict = false, grown = false;
 };
@@ -199,7 +199,7 @@ struct Reaches {
     double too_short, enough;
 };
 
-/// The move of `good`, which is enough, brought nearer to one that is too short.
+/// Shortens the move of `good`, which is sufficient, towards one that is too short, by bisection.
 Attempt shortened(const Tangle& tangle, const Plan& plan, Reaches reaches, Attempt good) {
     for (int k = 0; k < tolerances::reach_refinements && reaches.too_short < reaches.enough && !tangle.cancelled(); ++k) {
         const double middle = 0.5 * (reaches.too_short + reaches.enough);
@@ -212,15 +212,16 @@ Attempt shortened(const Tangle& tangle, const Plan& plan, Reaches reaches, Attem
     return good;
 }
 
-/// Follows one route until the patch and what moves with it is clear; nothing where that takes a move of `most` or more.
-std::optional<Attempt> follow(const Tangle& tangle, const Patch& patch, const Route& route, double most) {
+/// Follows one route until the patch and the cloth that moves with it are clear; nothing where that takes a move of `most` or
+/// more.
+std::optional<Attempt> follow(const Tangle& tangle, const Patch& patch, const Route& route, double max) {
     std::vector<bool> core(tangle.positions.size());
     for (const int v : patch.vertices) core[v] = true;
     double reach = route.reach, too_short = route.reach;
-    const double farthest = route.nearest ? tolerances::farthest_push * patch.margin : most;
-    for (int round = 0; round < tolerances::most_route_rounds && reach < farthest && !tangle.gives_up(); ++round) {
+    const double farthest = route.nearest ? tolerances::farthest_push * patch.margin : max;
+    for (int round = 0; round < tolerances::max_route_rounds && reach < farthest && !tangle.gives_up(); ++round) {
         Attempt found = attempt(tangle, {patch.obstacle, route, core}, reach);
-        if (found.largest_move >= most) return std::nullopt;
+        if (found.largest_move >= max) return std::nullopt;
         const Growth growth = grow_core(tangle, found, core);
         if (!growth.conflict) return shortened(tangle, {patch.obstacle, route, core}, {too_short, reach}, std::move(found));
         too_short = reach;
@@ -259,8 +260,8 @@ std::optional<Attempt> best_attempt(const Tangle& tangle, const Patch& patch) {
     const Enclosure enclosure(piece_of(tangle.cloth, patch.vertices.front()), tangle.positions, tangle.obstacles[patch.obstacle]);
     std::optional<Attempt> best;
     for (const Route& route : possible_routes(tangle, patch)) {
-        const double most = best && !best->tears() ? best->largest_move : everything;
-        std::optional<Attempt> found = follow(tangle, patch, route, most);
+        const double max = best && !best->tears() ? best->largest_move : everything;
+        std::optional<Attempt> found = follow(tangle, patch, route, max);
         if (found && (!best || found->better_than(*best)) && !enclosure.lost(found->positions)) best = std::move(found);
     }
     return best;
@@ -279,9 +280,8 @@ void accept(Attempt found, int obstacle, Tangle& tangle, std::vector<int>& cause
 
 enum class Shallow { nothing_to_do, pushed_out, no_route };
 
-/// All patches of a closed obstacle at once to the nearest places of its surface, if that tears nothing: garments overlap bodies
-/// a little in hundreds of places.
-/// `conflict` is of the state as it is.
+/// Pushes all patches of a closed obstacle at once to the nearest places of its surface, if that tears nothing: garments overlap
+/// bodies a little in hundreds of places. `conflict` belongs to the present state.
 Shallow push_out_shallow(int obstacle, const std::vector<int>& conflict, Tangle& tangle, std::vector<int>& cause) {
     if (!tangle.obstacles[obstacle].watertight()) return Shallow::nothing_to_do;
     Patch all{.vertices = {}, .deep = {}, .obstacle = obstacle};
@@ -309,13 +309,13 @@ std::optional<Untangled> untangle(const TangledCloth& cloth, std::span<const Sol
     std::vector<int> cause(positions.size(), -1);
     std::vector<int> conflict = conflicts_of(tangle);
     int failed = 0;
-    for (int k = 0; k < static_cast<int>(obstacles.size()) && failed < tolerances::most_push_failures; ++k) {
+    for (int k = 0; k < static_cast<int>(obstacles.size()) && failed < tolerances::max_push_failures; ++k) {
         const Shallow end = push_out_shallow(k, conflict, tangle, cause);
         if (end == Shallow::nothing_to_do) continue;
         failed = end == Shallow::no_route ? failed + 1 : 0;
         if (end == Shallow::pushed_out) conflict = conflicts_of(tangle);
     }
-    for (int round = 0; round < tolerances::most_patches; ++round) {
+    for (int round = 0; round < tolerances::max_patches; ++round) {
         const Patch patch = first_patch(tangle, std::move(conflict));
         if (patch.vertices.empty()) return Untangled{.positions = std::move(tangle.positions), .obstacle = std::move(cause)};
         if (holds_fixed(tangle, patch)) return std::nullopt;

@@ -16,7 +16,7 @@ using certificate::Overlap;
 
 Corners corners(std::span<const Vec3> x, const Triangle& t) { return {x[t[0]], x[t[1]], x[t[2]]}; }
 
-/// The cloth's triangles that lie about obstacles in a tree, their boxes grown by the gap that they have to keep.
+/// The cloth's triangles near obstacles, in a tree, their boxes grown by the gap that they have to keep.
 struct PlacedCloth {
     std::vector<int> number;  // of each triangle among the cloth's
     std::vector<Corners> triangles;
@@ -24,7 +24,7 @@ struct PlacedCloth {
     std::vector<certificate::Slab> slab;  // of triangles with a gap
     BoxTree tree;
 
-    /// Whether a triangle with a gap is nearer than it to one that it does not meet; a bound tells it of most.
+    /// Whether a triangle is nearer than its gap to one that it does not meet; a bound excludes most.
     bool is_too_near(int i, const Corners& other) const {
         const double surely_far = gap[i] * (1.0 + tolerances::bound_slack);
         if (certificate::triangle_separation(triangles[i], slab[i], other, surely_far) > surely_far) return false;
@@ -32,7 +32,7 @@ struct PlacedCloth {
     }
 };
 
-/// A triangle about none of the obstacles meets none, comes too near to none and has no corner inside.
+/// Leaves out triangles that are near no obstacle: they meet none, are too near to none and have no corner inside.
 PlacedCloth place(const TangledCloth& cloth, std::span<const Vec3> x, const std::vector<bool>& moved,
                   std::span<const SolidObstacle> obstacles) {
     std::vector<int> numbers;
@@ -60,7 +60,7 @@ PlacedCloth place(const TangledCloth& cloth, std::span<const Vec3> x, const std:
     return {std::move(numbers), std::move(triangles), std::move(gaps), std::move(slabs), std::move(tree)};
 }
 
-/// The cloth triangles that lie about an obstacle's box: all that can meet it, come too near or have a corner inside.
+/// The cloth triangles near an obstacle's box: all that can meet it, come too near or have a corner inside.
 std::vector<int> triangles_around(const PlacedCloth& placed, const SolidObstacle& obstacle) {
     const certificate::Box bounds = obstacle.tree().bounds();
     std::vector<int> around;
@@ -69,7 +69,7 @@ std::vector<int> triangles_around(const PlacedCloth& placed, const SolidObstacle
     return around;
 }
 
-/// How each cloth triangle lies to an obstacle.
+/// How each cloth triangle meets an obstacle.
 struct Meetings {
     std::vector<bool> meets;     // shares a point with it
     std::vector<bool> too_near;  // or comes nearer than its gap
@@ -89,8 +89,8 @@ Meetings find_meetings(const PlacedCloth& placed, const SolidObstacle& obstacle,
     return found;
 }
 
-/// Vertices joined by triangles that do not meet the obstacle lie on one side of it: one of them tells of all. Every vertex of
-/// cloth belongs to a triangle.
+/// Vertices joined by triangles that do not meet the obstacle lie on one side of it: one of them is tested for all. Every vertex
+/// of cloth belongs to a triangle.
 std::vector<bool> find_inside(const TangledCloth& cloth, const SolidObstacle& obstacle, std::span<const Vec3> x,
                               std::span<const int> around, const std::vector<bool>& meets) {
     std::vector<bool> inside(x.size()), asked(x.size());
@@ -123,7 +123,7 @@ bool is_cut(const Vec3& a, const Vec3& b, const SolidObstacle& obstacle) {
     return cut;
 }
 
-/// The side of most vertices in every connected piece of cloth; at its index the number of the side.
+/// The side with most vertices in every connected piece of cloth; the number of the side is at the index of the piece.
 std::vector<int> largest_sides(DisjointSets& sides, DisjointSets& pieces, int count) {
     std::vector<int> size(count, 0), largest(count, -1);
     for (int v = 0; v < count; ++v) ++size[sides.of(v)];

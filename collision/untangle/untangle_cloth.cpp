@@ -14,13 +14,13 @@
 namespace percale {
 namespace {
 
-/// What keeps two vertices as far apart as they were.
+/// Keeps two vertices as far apart as they were.
 struct Bond {
     std::array<int, 2> vertex;
     double length;  // m
 };
 
-/// A stitch that is not closed: its sides do not part further.
+/// A stitch that is not closed: its sides do not separate further.
 struct Tie {
     Stitch stitch;
     double length;  // m
@@ -32,7 +32,7 @@ Vec3 across(const Stitch& stitch, std::span<const Vec3> x) {
 
 class Rounds {
 public:
-    /// `near`: stitches as near as so many edges are closed.
+    /// `near`: stitches shorter than so many mean edges are closed.
     Rounds(const CrossedCloth& cloth, std::span<const Vec3> positions, double near)
         : cloth_(cloth), given_(positions), merged_(merge_sewn(cloth, positions, near)) {
         surface_ = make_cloth_surface(mesh_.triangles, mesh_.vertices.size());
@@ -40,13 +40,13 @@ public:
             bonds_.push_back({edge.vertex, (mesh_.vertices[edge.vertex[0]] - mesh_.vertices[edge.vertex[1]]).norm()});
         }
         for (const Stitch& stitch : merged_.stitches) ties_.push_back({stitch, across(stitch, mesh_.vertices).norm()});
-        reach_ = tolerances::retreat_share * merged_.mean_edge();
+        reach_ = tolerances::retreat_ratio * merged_.mean_edge();
     }
 
     std::optional<std::vector<Vec3>> run() {
         std::size_t fewest = std::numeric_limits<std::size_t>::max();
         int since_fewest = 0;
-        for (int round = 0; round < tolerances::most_untangle_rounds && !cancelled(); ++round) {
+        for (int round = 0; round < tolerances::max_untangle_rounds && !cancelled(); ++round) {
             const std::vector<IntersectingPair> pairs = find_pairs(round);
             if (pairs.empty()) return clear_places();
             if (round == 0 && order_layers()) continue;
@@ -55,7 +55,7 @@ public:
                 fewest = pairs.size();
                 since_fewest = 0;
             }
-            if (since_fewest > tolerances::most_idle_rounds) return std::nullopt;
+            if (since_fewest > tolerances::max_idle_rounds) return std::nullopt;
             move_back(crossings_of(pairs));
             if (since_fewest > tolerances::idle_rounds_before_smoothing) smooth(of_one_layer(pairs));
             for (int sweep = 0; sweep < tolerances::bond_sweeps; ++sweep) keep_lengths();
@@ -66,7 +66,7 @@ public:
 private:
     bool cancelled() const { return cloth_.cancel != nullptr && *cloth_.cancel; }
 
-    /// Cloth of higher layers goes outside of lower ones; false where all is of one layer.
+    /// Moves cloth of higher layers outside of lower ones; returns false where all cloth is of one layer.
     bool order_layers() {
         if (cloth_.meeting.pairs == nullptr || cloth_.meeting.pairs->layers().empty()) return false;
         std::vector<int> cloth(mesh_.triangles.size());
@@ -81,14 +81,14 @@ private:
         const double edge = merged_.mean_edge();
         const LayeredCloth layered{
             surface_, cloth, layer_, outwards, free_, tolerances::layer_reach * edge, tolerances::layer_gap * edge};
-        for (int round = 0; round < tolerances::most_layer_rounds && !cancelled() && push_outside(layered, mesh_.vertices);
+        for (int round = 0; round < tolerances::max_layer_rounds && !cancelled() && push_outside(layered, mesh_.vertices);
              ++round) {
             for (int sweep = 0; sweep < tolerances::bond_sweeps; ++sweep) keep_lengths();
         }
         return true;
     }
 
-    /// Between layers it is known to which side to go.
+    /// Between layers the side to which an edge goes back is known.
     void turn_by_layers(std::vector<EdgeCrossing>& crossings) const {
         if (layer_.empty()) return;
         for (EdgeCrossing& crossing : crossings) {
@@ -103,7 +103,7 @@ private:
 
     std::vector<Vec3> places(bool gaps) const { return merged_.places(given_, gaps); }
 
-    /// What has not moved keeps the gaps that it had, unless something crosses by that.
+    /// Vertices that have not moved keep the gaps that they had, unless that makes something cross.
     std::vector<Vec3> clear_places() const {
         std::vector<Vec3> with_gaps = places(true);
         const std::vector<Triangle> triangles(cloth_.triangles.begin(), cloth_.triangles.end());
@@ -112,8 +112,8 @@ private:
         return found.crossing.empty() && found.touching.empty() ? with_gaps : places(false);
     }
 
-    /// What crosses or touches, as the start is checked (triangles at one stitch may): of all cloth now and then and where
-    /// nothing seems to be left, else of what is near the crossings found then.
+    /// The pairs that cross or touch, by the rules of the check of the start (triangles at one stitch may): all cloth is searched
+    /// now and then and when no pairs are left, otherwise cloth near the crossings found then.
     std::vector<IntersectingPair> find_pairs(int round) {
         if (round % tolerances::rounds_between_searches != 0) {
             const std::vector<IntersectingPair> pairs = pairs_among(near_);
@@ -129,7 +129,7 @@ private:
         return pairs;
     }
 
-    /// Of the triangles as they were given.
+    /// The pairs among triangles with numbers as given.
     std::vector<IntersectingPair> pairs_among(const std::vector<int>& triangles) const {
         TriangleMesh part{.vertices = places(false), .triangles = {}};
         std::vector<int> cloth;
@@ -158,7 +158,7 @@ private:
         return crossings;
     }
 
-    /// Whether a vertex is one of the pairs', or at most so many edges from one.
+    /// Whether a vertex belongs to one of the pairs, or is at most `rings` edges from one that does.
     std::vector<bool> near_vertices(const std::vector<IntersectingPair>& pairs, int rings) const {
         std::vector<bool> near(mesh_.vertices.size(), false);
         for (const auto& [first, second] : pairs) {
@@ -175,15 +175,16 @@ private:
         return near;
     }
 
-    /// Each vertex goes along the mean of what its crossings ask for.
+    /// Moves each vertex along the mean of the retreat vectors of its crossings.
     void move_back(const std::vector<EdgeCrossing>& crossings) {
         std::vector<Vec3> moves(mesh_.vertices.size(), Vec3::Zero());
         std::vector<double> weights(moves.size(), 0.0);
         for (const EdgeCrossing& crossing : crossings) {
             const double length = crossing.retreat.norm();
             if (!(length > 0.0)) continue;
-            // Long where the edge lies flat: as a direction, and little where the curve would hardly get shorter.
-            const Vec3 share = crossing.retreat / std::hypot(length, tolerances::least_retreat);
+            // The retreat vector is long where the edge lies flat: it becomes a direction, and is reduced where the curve would
+            // hardly get shorter.
+            const Vec3 share = crossing.retreat / std::hypot(length, tolerances::min_retreat);
             const auto add = [&](int vertex, double weight, double sign) {
                 moves[vertex] += sign * weight * share;
                 weights[vertex] += weight;
@@ -203,8 +204,8 @@ private:
         return pairs;
     }
 
-    /// Draws what crosses, and what is near it, half way to the middle of its neighbours: folds that hang on one vertex, or
-    /// between two seams, have no shorter curve to go back to.
+    /// Moves crossing cloth, and cloth near it, half way to the mean of its neighbours: folds that hang on one vertex, or between
+    /// two seams, have no shorter curve to go back to.
     void smooth(const std::vector<IntersectingPair>& pairs) {
         const std::vector<bool> near = near_vertices(pairs, tolerances::smoothed_rings);
         const std::vector<Vec3> before = mesh_.vertices;
@@ -220,12 +221,12 @@ private:
     void keep_lengths() {
         for (const auto& [vertex, length] : bonds_) {
             Vec3 &a = mesh_.vertices[vertex[0]], &b = mesh_.vertices[vertex[1]];
-            const double now = (b - a).norm(), most = length * (1.0 + tolerances::bond_slack),
-                         least = length * (1.0 - tolerances::bond_slack);
-            if ((now >= least && now <= most) || !(now > 0.0)) continue;
+            const double now = (b - a).norm(), max = length * (1.0 + tolerances::bond_slack),
+                         min = length * (1.0 - tolerances::bond_slack);
+            if ((now >= min && now <= max) || !(now > 0.0)) continue;
             const double one = free_[vertex[0]], other = free_[vertex[1]];
             if (one + other == 0.0) continue;
-            const Vec3 change = (now - std::clamp(now, least, most)) / (now * (one + other)) * (b - a);
+            const Vec3 change = (now - std::clamp(now, min, max)) / (now * (one + other)) * (b - a);
             a += one * change;
             b -= other * change;
         }
@@ -251,20 +252,21 @@ private:
     TriangleMesh& mesh_ = merged_.mesh;
     const std::vector<int>& number_ = merged_.number;
     const std::vector<double>& free_ = merged_.free;
-    ClothSurface surface_;          // of an edge with more than two triangles it knows two, which are enough for a direction
+    ClothSurface surface_;          // it knows two triangles of an edge with more, which are enough for a direction
     std::vector<int> layer_;        // of each triangle of the mesh, where there are layers
     std::vector<double> outwards_;  // likewise: 1 or -1, whether it faces outside as it is wound
     std::vector<Bond> bonds_;
     std::vector<Tie> ties_;
     std::vector<int> near_;  // triangles as given near the crossings of the last search of all cloth
-    double reach_ = 0.0;     // m, farthest that a round moves a vertex
+    double reach_ = 0.0;     // m, largest move of a vertex in a round
 };
 
 }  // namespace
 
 std::optional<std::vector<Vec3>> untangle_cloth(const CrossedCloth& cloth, std::span<const Vec3> given) {
-    const std::vector<Vec3> positions = joined_places(given, cloth.triangles);  // as the start is checked
-    // Sides that lie a little apart may be clear as they are and cross when they are drawn together: then once more as they are.
+    const std::vector<Vec3> positions = joined_places(given, cloth.triangles);  // as in the check of the start
+    // Sides slightly apart may be clear as they are and cross when they are drawn together: then all is repeated with them as
+    // they are.
     std::optional<std::vector<Vec3>> apart = Rounds(cloth, positions, tolerances::closed_stitch).run();
     return apart || cloth.stitches.empty() ? apart : Rounds(cloth, positions, 0.0).run();
 }

@@ -8,7 +8,7 @@
 
 namespace percale {
 
-/// An obstacle as untangling asks about it, in world coordinates.
+/// An obstacle for the queries of untangling, in world coordinates.
 class SolidObstacle {
 public:
     explicit SolidObstacle(TriangleMesh mesh);
@@ -18,7 +18,7 @@ public:
     const certificate::BoxTree& tree() const { return tree_; }
     bool watertight() const { return watertight_; }
 
-    /// Never inside an open obstacle. Exact.
+    /// Whether a point is inside; false for an open obstacle. Exact.
     bool inside(const Vec3& point) const;
 
     /// How far a point is from leaving along the unit vector `direction`, m: of a watertight obstacle the first place on its

@@ -9,15 +9,15 @@
 namespace percale {
 namespace {
 
-/// What is left of a move at a vertex; larger ones are passed on first, at equal size the lower vertex (Dijkstra 1959).
+/// The size of a faded move at a vertex; larger ones are propagated first, at equal size the lower vertex (Dijkstra 1959).
 struct Front {
     double size;
     int vertex, source;
     bool operator<(const Front& other) const { return size != other.size ? size < other.size : vertex > other.vertex; }
 };
 
-/// For each vertex the source whose value, less what the length to it takes, is largest there, and that value; source -1 below
-/// `smallest`.
+/// For each vertex the source whose value, less the loss along the length to it, is largest there, and that value; source -1
+/// below `smallest`.
 struct Reached {
     std::vector<double> size;
     std::vector<int> source;

@@ -10,8 +10,9 @@ namespace percale {
 /// For each vertex its distance along edges from the nearest vertex that stays, m; infinity where none does.
 std::vector<double> distance_from_fixed(const TangledCloth& cloth, std::span<const Vec3> positions);
 
-/// Lets the cloth around follow: `moves` (m) of vertices in the core stay as they are, others go along with the nearest of the
-/// core, less by half the length to it along edges. Nothing moves farther than its `limit`, m.
+/// Makes the cloth around follow: `moves` (m) of vertices in the core stay as they are, other vertices follow the core vertex
+/// whose move is largest there after half the length to it along edges is subtracted. No vertex moves farther than its `limit`,
+/// m.
 void spread_moves(const TangledCloth& cloth, std::span<const Vec3> positions, const std::vector<bool>& core,
                   std::span<const double> limit, std::vector<Vec3>& moves);
 

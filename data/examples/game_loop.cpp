@@ -11,7 +11,7 @@
 namespace {
 
 constexpr double dt = 1.0 / 60.0;  // s
-constexpr int most_steps = 4;      // in a frame: what needs more is a hitch
+constexpr int max_steps = 4;       // in a frame: what needs more is a hitch
 
 /// Where the character is: it walks along x, bobs and looks around.
 percale::Pose walk(double time) {
@@ -50,7 +50,7 @@ int main() try {
     int steps = 0, teleports = 0, refused = 0;
     for (int frame = 0; frame < 400; ++frame) {
         owed += frame == 250 ? 2.0 : frame_times[frame % 5];
-        if (owed > most_steps * dt) {
+        if (owed > max_steps * dt) {
             const double skipped = std::floor(owed / dt) * dt - dt;  // one step is left to be made
             simulation.teleport({&cape, 1}, {&body, 1}, motion_between(walk(clock), walk(clock + skipped)));
             clock += skipped;

@@ -41,7 +41,7 @@ public:
         made_.vertex.assign(before.vertex_count(), -1);
     }
 
-    /// Cloths and seams in the order in which they came, which is that of their springs.
+    /// Remakes cloths and seams in the order in which they were added, which is that of their springs.
     RemadeModel run() {
         std::size_t cloth = 0, seam = 0;
         while (cloth < before_.cloths.size() || seam < seams_.size()) {
@@ -77,7 +77,7 @@ private:
         const ClothRange& own = model.cloths.back();
         for (int i = 0; i < cloth.count; ++i) made_.vertex[cloth.index_of(i)] = own.index_of(i);
         if (!change_.fabric->strain_limit) return;
-        for (int k = own.first_spring; k < model.springs.size(); ++k) {  // finish_model takes holds by their order
+        for (int k = own.first_spring; k < model.springs.size(); ++k) {  // finish_model assigns holds by their order
             if (model.springs.kind[k] == SpringKind::structural) model.limits.edges.push_back({.spring = k});
         }
     }
@@ -113,7 +113,7 @@ private:
         SpringNetwork& to = made_.model.springs;
         for (int k = range.first; k < range.last; ++k) {
             const int one = made_.vertex[from.first[k]], other = made_.vertex[from.second[k]];
-            const bool sorted = from.kind[k] == SpringKind::seam;  // another order of vertices may turn it round
+            const bool sorted = from.kind[k] == SpringKind::seam;  // another order of vertices may exchange its ends
             to.first.push_back(sorted ? std::min(one, other) : one);
             to.second.push_back(sorted ? std::max(one, other) : other);
         }
@@ -136,7 +136,7 @@ private:
 
     void add_seam(int number, int last_spring) {
         const Seam& seam = seams_[number];
-        const Stitch& stitch = seam.stitches.front();  // all join the same two cloths
+        const Stitch& stitch = seam.stitches.front();  // all stitches join the same two cloths
         if (made_.vertex[stitch.vertex] < 0 || made_.vertex[stitch.from] < 0) return;
         ClothModel& model = made_.model;
         const NumberRange springs{seam.first_spring, last_spring};

@@ -7,22 +7,22 @@
 
 namespace percale {
 
-/// What a model is made anew for.
+/// The reason for making a model anew.
 struct ModelChange {
     int cloth = -1;
-    const Fabric* fabric = nullptr;  // that it is to have; null: it goes, and with it the seams that join it
+    const Fabric* fabric = nullptr;  // its new one; null: the cloth is removed, with the seams that join it
 };
 
 struct RemadeModel {
     ClothModel model;
-    std::vector<Seam> seams;       // those that are left, in their order
-    std::vector<int> vertex;       // of each of before: its number now; -1: gone
-    std::vector<int> seam_before;  // of each that is left: its number before
+    std::vector<Seam> seams;       // the remaining ones, in their order
+    std::vector<int> vertex;       // for each earlier vertex: its number now; -1: removed
+    std::vector<int> seam_before;  // for each remaining one: its earlier number
 };
 
-/// The model that the same calls make without a cloth, or with another fabric for it. Other cloths are copied, with what their
-/// strain limits hold with; what the changed one's hold with begins anew. Seams keep lengths, directions and what their welds
-/// hold with. Throws SceneError, as append_cloth does, for a fabric that the cloth cannot have.
+/// The model that the same calls make without a cloth, or with another fabric for it. Other cloths are copied, with the holds of
+/// their strain limits; those of the changed one start from zero. Seams keep lengths, directions and the holds of their welds.
+/// Throws SceneError, as append_cloth does, for a fabric that the cloth cannot have.
 RemadeModel remake(const ClothModel& before, const std::vector<Seam>& seams, const ModelChange& change);
 
 }  // namespace percale

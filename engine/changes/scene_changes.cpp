@@ -6,11 +6,11 @@
 namespace percale {
 namespace {
 
-/// What is one less where a number was taken out; -1: it is the one, or was none.
+/// Numbers above `removed` decrease by one; -1: the removed number itself, or none.
 int without(int number, int removed) { return number == removed ? -1 : number > removed ? number - 1 : number; }
 
-/// Of all that names a vertex and an obstacle, where `vertex` and `obstacle` say what their numbers are now, -1: gone. What is
-/// bound to no obstacle, but to cloth (-1), is so on.
+/// Renumbers all entries with a vertex and an obstacle by `vertex` and `obstacle`, which return the new number, -1: removed.
+/// Entries that refer to cloth instead of an obstacle (-1) keep that.
 template <class Held, class VertexNumber, class ObstacleNumber>
 void renumber(std::vector<Held>& list, VertexNumber vertex, ObstacleNumber obstacle) {
     std::vector<Held> left;
@@ -44,17 +44,17 @@ void renumber(ContactMultipliers& forces, VertexNumber vertex, ObstacleNumber ob
     forces.set(left);
 }
 
-/// Forces of the last solve, of which the rows will not do: they go on with old numbers.
+/// Stores the contact forces of the last solve, as its constraints keep their old numbers.
 void note_loads(World& world) {
     world.saved_loads = contact_loads(world);
     if (world.load_source != LoadSource::nowhere) world.load_source = LoadSource::saved_state;
 }
 
-/// All that a world remembers of contacts, its loads noted down.
+/// Renumbers all contact data of a world, its loads stored first.
 template <class VertexNumber, class ObstacleNumber>
 void renumber_contacts(World& world, VertexNumber vertex, ObstacleNumber obstacle) {
     renumber(world.saved_loads, vertex, obstacle);
-    renumber(world.state.cloth.grips, vertex, obstacle);
+    renumber(world.state.cloth.stick_anchors, vertex, obstacle);
     renumber(world.state.cloth.impacts, vertex, obstacle);
     renumber(world.state.contact.last, vertex, obstacle);
     renumber(world.state.contact.lasting, vertex, obstacle);
@@ -64,14 +64,14 @@ void renumber_contacts(World& world, VertexNumber vertex, ObstacleNumber obstacl
     std::erase(world.refused.vertices, -1);
 }
 
-/// Positions, velocities and pins of the cloth that is left; cloth is never new here.
+/// Copies positions, velocities and pins of the remaining cloth; no cloth is new here.
 void carry_over(const std::vector<int>& number, World& world) {
     const int count = world.scene.model.vertex_count();
     const ClothState& before = world.state.cloth;
     ClothState state;
     for (auto* vectors : {&state.positions, &state.velocities}) vectors->resize(count);
     state.points.resize(count);
-    Vectors targets = state.positions;
+    Vec3Arrays targets = state.positions;
     AlignedVector<double> free(targets.padded_size(), 0.0);
     for (std::size_t i = 0; i < number.size(); ++i) {
         const int from = static_cast<int>(i), to = number[i];
@@ -81,7 +81,7 @@ void carry_over(const std::vector<int>& number, World& world) {
         targets.set(to, world.scene.script.pin_targets.at(from));
         free[to] = world.scene.script.free[from];
     }
-    state.grips = before.grips;
+    state.stick_anchors = before.stick_anchors;
     state.impacts = before.impacts;
     update_points(state);
     if (!before.rest_length.empty() && !world.scene.script.seams.empty()) {
@@ -93,25 +93,26 @@ void carry_over(const std::vector<int>& number, World& world) {
     world.scene.script.pin_targets = std::move(targets);
 }
 
-/// Loads are noted down.
+/// Whether an obstacle touches cloth; loads are stored.
 bool touches(const World& world, int obstacle) {
     const auto with_it = [&](const auto& held) { return held.obstacle == obstacle; };
     const auto force_with_it = [&](const KeyedForce& force) { return force.key.obstacle == obstacle; };
     const ClothState& cloth = world.state.cloth;
-    const ContactMemory& contact = world.state.contact;
-    return std::ranges::any_of(cloth.grips, with_it) || std::ranges::any_of(cloth.impacts, with_it) ||
+    const ContactWarmStart& contact = world.state.contact;
+    return std::ranges::any_of(cloth.stick_anchors, with_it) || std::ranges::any_of(cloth.impacts, with_it) ||
            std::ranges::any_of(contact.last.all(), force_with_it) || std::ranges::any_of(contact.lasting.all(), force_with_it) ||
            std::ranges::any_of(world.saved_loads, with_it);
 }
 
-/// Whether a detector is told anything else of two cloths of the same mesh, or the start of one may not be one of the other.
+/// Whether a detector receives different data for the two fabrics on the same mesh, or a valid start of one may be invalid for
+/// the other.
 bool meets_otherwise(const Fabric& a, const Fabric& b) {
     return a.thickness != b.thickness || a.self_contact != b.self_contact || a.friction != b.friction ||
            a.strain_limit.has_value() != b.strain_limit.has_value();
 }
 
-/// Puts a model made anew of that of the world in its place: the cloth that is left keeps state, pins and contact, under its new
-/// numbers. The detector is told by those who call it.
+/// Replaces the model of the world by one made anew from it: the remaining cloth keeps state, pins and contact, under its new
+/// numbers. The caller updates the detector.
 void adopt_model(RemadeModel&& made, World& world) {
     note_loads(world);
     renumber_contacts(
@@ -126,7 +127,8 @@ void adopt_model(RemadeModel&& made, World& world) {
     scene_changed(world);
 }
 
-/// Throws SceneError where the detector knows no contact of cloth with cloth: it is told of none, and told anew afterwards.
+/// Throws SceneError where the detector cannot handle contact between cloths: it receives an empty list, and later all cloth
+/// anew.
 void check_knows_cloth(World& world) {
     const std::size_t count = world.scene.model.rest.size();
     const std::vector<int> nowhere(count, -1);
@@ -157,7 +159,7 @@ std::vector<int> drop_cloth(World& world, int cloth) {
 void change_fabric(World& world, int cloth, const Fabric& fabric) {
     const ClothRange before = world.scene.model.cloths[cloth];
     RemadeModel made = remake(world.scene.model, world.scene.script.seams, {cloth, &fabric});
-    // What is refused is refused before anything changes.
+    // All refusals precede any change.
     if (fabric.self_contact && !meets_cloth(world.scene)) check_knows_cloth(world);
     adopt_model(std::move(made), world);
     const bool same_order = before.order.place == world.scene.model.cloths[cloth].order.place;

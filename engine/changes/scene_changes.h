@@ -5,14 +5,14 @@
 
 namespace percale {
 
-/// Takes cloth, what pairs say of it and its seams out. Returns the numbers before of the seams that are left.
+/// Removes a cloth, its pair settings and its seams. Returns the earlier numbers of the remaining seams.
 std::vector<int> drop_cloth(World& world, int cloth);
 
-/// Gives a cloth another fabric. Throws SceneError, and leaves all as it was, where it cannot have it.
+/// Gives a cloth another fabric. Throws SceneError, and leaves everything as it was, where the cloth cannot have it.
 void change_fabric(World& world, int cloth, const Fabric& fabric);
 
-/// Takes an obstacle out; later ones have numbers less by one. Throws SceneError where the detector cannot. Cloth wakes up only
-/// if the obstacle touched some.
+/// Removes an obstacle; the numbers of later ones decrease by one. Throws SceneError where the detector cannot remove it. Cloth
+/// wakes up only if the obstacle touched some.
 void drop_obstacle(World& world, int obstacle);
 
 }  // namespace percale

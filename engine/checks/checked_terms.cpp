@@ -17,7 +17,7 @@ Vec3 symmetric_product(const SymmetricBlock& k, const Vec3& u) {
     return {xx * u.x() + xy * u.y() + xz * u.z(), xy * u.x() + yy * u.y() + yz * u.z(), xz * u.x() + yz * u.y() + zz * u.z()};
 }
 
-/// A term of the list alone, as a function of the positions at the end of the step, with the velocities that lead there.
+/// A single term of the list, as a function of the positions at the end of the step, with the velocities that lead there.
 struct LoneTerm {
     StepEnd step;
     const ForceTerm& term;
@@ -26,9 +26,9 @@ struct LoneTerm {
     Forces forces = {};  // with a matrix, at the state
     std::vector<bool> exact = {};
 
-    /// result.total = its forces; returns its potential.
-    double evaluate(const Vectors& positions, bool with_matrix, Forces& result) const {
-        Vectors velocities = step.end.cloth.velocities;
+    /// Sets result.total to its forces; returns its potential.
+    double evaluate(const Vec3Arrays& positions, bool with_matrix, Forces& result) const {
+        Vec3Arrays velocities = step.end.cloth.velocities;
         add_scaled(velocities, 1.0 / step.dt, positions);
         add_scaled(velocities, -1.0 / step.dt, step.end.cloth.positions);
         const ForceInput input = input_at(positions, velocities, with_matrix);
@@ -37,20 +37,20 @@ struct LoneTerm {
         return term.add(input, result);
     }
 
-    void fill(double reach) {
+    void fill(double difference_step) {
         const ClothModel& model = step.scene.model;
         evaluate(step.end.cloth.positions, true, forces);
         exact.assign(model.vertex_count(), true);
-        term.mark_inexact(input_at(step.end.cloth.positions, step.end.cloth.velocities, true), forces, reach, exact);
+        term.mark_inexact(input_at(step.end.cloth.positions, step.end.cloth.velocities, true), forces, difference_step, exact);
         set_pattern(step.scene.compute, model.adjacency, std::vector<double>(model.vertex_count(), 0.0), matrix);
         if (forces.spring_terms.values.empty()) forces.spring_terms.values.assign(model.adjacency.value_count(), 0.0f);
         matrix.springs = &forces.spring_terms;
-        matrix.enclosed = forces.enclosed;
+        matrix.pressure_blocks = forces.pressure_blocks;
         matrix.positions = &step.end.cloth.positions;
     }
 
-    /// product = its part of the matrix times a direction.
-    void multiply(const Vectors& direction, Vectors& product) const {
+    /// Sets product to its part of the matrix times a direction.
+    void multiply(const Vec3Arrays& direction, Vec3Arrays& product) const {
         AlignedVector<double> points;
         percale::multiply(matrix, direction, points, product);
         for (std::size_t i = 0; i < forces.wind.blocks.size(); ++i) {
@@ -60,7 +60,7 @@ struct LoneTerm {
     }
 
 private:
-    ForceInput input_at(const Vectors& positions, const Vectors& velocities, bool with_matrix) const {
+    ForceInput input_at(const Vec3Arrays& positions, const Vec3Arrays& velocities, bool with_matrix) const {
         return {.compute = &step.scene.compute,
                 .model = &step.scene.model,
                 .springs = &springs,
@@ -77,13 +77,13 @@ CheckedTerm checked_term(const std::string& name, const std::shared_ptr<LoneTerm
     const ForceTerm& term = check->term;
     CheckedTerm checked{.name = name,
                         .add_forces =
-                            [=](const Vectors& positions, Vectors& sum) {
+                            [=](const Vec3Arrays& positions, Vec3Arrays& sum) {
                                 Forces forces;
                                 check->evaluate(positions, false, forces);
                                 add_scaled(sum, 1.0, forces.total);
                             },
                         .energy =
-                            [=](const Vectors& positions) {
+                            [=](const Vec3Arrays& positions) {
                                 Forces forces;
                                 return check->evaluate(positions, false, forces);
                             },
@@ -92,12 +92,12 @@ CheckedTerm checked_term(const std::string& name, const std::shared_ptr<LoneTerm
                         .kinks = term.may_be_below(),
                         .internal = term.is_internal()};
     if (check->step.scene.plan.implicit && term.is_in_matrix()) {
-        checked.multiply = [=](const Vectors& direction, Vectors& product) { check->multiply(direction, product); };
+        checked.multiply = [=](const Vec3Arrays& direction, Vec3Arrays& product) { check->multiply(direction, product); };
     }
     return checked;
 }
 
-/// What the springs are without damping.
+/// The springs without damping.
 StepSprings undamped_springs(const StepEnd& step) {
     const StepScene& scene = step.scene;
     StepSprings springs;
@@ -109,40 +109,41 @@ StepSprings undamped_springs(const StepEnd& step) {
     return springs;
 }
 
-void add_checked_terms(const StepEnd& step, double reach, std::vector<CheckedTerm>& terms) {
+void add_checked_terms(const StepEnd& step, double difference_step, std::vector<CheckedTerm>& terms) {
     const auto add = [&](const ForceTerm& term, const std::string& name, StepSprings springs) {
         const auto check = std::make_shared<LoneTerm>(LoneTerm{step, term, std::move(springs)});
-        check->fill(reach);
+        check->fill(difference_step);
         terms.push_back(checked_term(name, check));
     };
     for (const ForceTerm* term : force_terms()) {
         if (!term->acts({.model = &step.scene.model, .wind = step.scene.plan.wind ? &step.work.wind : nullptr})) continue;
         add(*term, std::string(term->name()), undamped_springs(step));
         if (term != &spring_term() || !step.scene.plan.implicit || step.scene.plan.damping != DampingForm::length_rate) continue;
-        // Those of the last span, whose start made them what they are.
+        // These are the springs of the last substep, whose start determines them.
         add(*term, "damped springs", step.work.newton.springs);
     }
 }
 
-/// The rows of the last evaluation as planes, without friction, which has no potential.
+/// The constraints of the last evaluation as planes, without friction, which has no potential.
 struct ContactCheck {
     StepEnd step;
-    ContactRows rows;
+    ContactConstraints constraints;
     ContactTerms terms;
     std::vector<bool> exact;
 
     explicit ContactCheck(const StepEnd& of)
-        : step(of), rows(of.work.newton.current.rows), exact(of.scene.model.vertex_count(), true) {}
+        : step(of), constraints(of.work.newton.current.constraints), exact(of.scene.model.vertex_count(), true) {}
 
-    double evaluate(const Vectors& positions, Vectors& forces, ContactTerms& result) const {
-        ContactRows moved = rows;
-        for (std::size_t row = 0; row < rows.size(); ++row) {
+    double evaluate(const Vec3Arrays& positions, Vec3Arrays& forces, ContactTerms& result) const {
+        ContactConstraints moved = constraints;
+        for (std::size_t constraint = 0; constraint < constraints.size(); ++constraint) {
             double change = 0.0;
-            for (std::size_t k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
-                const int i = rows.vertex[row][k];
-                change += rows.weight[row][k] * rows.direction[row].dot(positions.at(i) - step.end.cloth.positions.at(i));
+            for (std::size_t k = 0; k < 4 && constraints.vertex[constraint][k] >= 0; ++k) {
+                const int i = constraints.vertex[constraint][k];
+                change += constraints.weight[constraint][k] *
+                          constraints.direction[constraint].dot(positions.at(i) - step.end.cloth.positions.at(i));
             }
-            moved.distance[row] += change;
+            moved.distance[constraint] += change;
         }
         const ContactStep contact{.dt = step.dt,
                                   .stiffness_dt = step.end.contact_dt,
@@ -151,12 +152,12 @@ struct ContactCheck {
                                   .mass = &step.scene.model.mass,
                                   .diagonal = &step.work.newton.frozen_diagonal,
                                   .load = &step.work.newton.frozen_load};
-        std::vector<RowForce> row_forces;
-        add_contact(moved, contact, positions, forces, result, row_forces);
+        std::vector<ConstraintForce> constraint_forces;
+        add_contact(moved, contact, positions, forces, result, constraint_forces);
         return result.energy;
     }
 
-    void multiply(const Vectors& direction, Vectors& product) const {
+    void multiply(const Vec3Arrays& direction, Vec3Arrays& product) const {
         for (const CoupledBlock& block : terms.blocks) {
             Vec3 u = Vec3::Zero();
             for (std::size_t k = 0; k < 4 && block.vertex[k] >= 0; ++k) u += block.weight[k] * direction.at(block.vertex[k]);
@@ -165,34 +166,37 @@ struct ContactCheck {
         }
     }
 
-    /// Where a row is about to end or to begin the second derivative jumps.
-    void set_exact(double reach) {
-        for (std::size_t row = 0; row < rows.size(); ++row) {
-            if (std::abs(rows.distance[row] - rows.thickness[row]) > contact_kink_reaches * reach) continue;
-            for (std::size_t k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) exact[rows.vertex[row][k]] = false;
+    /// Where a constraint is about to end or to begin, the second derivative jumps.
+    void set_exact(double difference_step) {
+        for (std::size_t constraint = 0; constraint < constraints.size(); ++constraint) {
+            if (std::abs(constraints.distance[constraint] - constraints.thickness[constraint]) >
+                contact_kink_reaches * difference_step)
+                continue;
+            for (std::size_t k = 0; k < 4 && constraints.vertex[constraint][k] >= 0; ++k)
+                exact[constraints.vertex[constraint][k]] = false;
         }
     }
 };
 
-CheckedTerm contact_term(const StepEnd& step, double reach) {
+CheckedTerm contact_term(const StepEnd& step, double difference_step) {
     auto check = std::make_shared<ContactCheck>(step);
-    Vectors forces;
+    Vec3Arrays forces;
     forces.resize(step.scene.model.vertex_count());
     check->evaluate(step.end.cloth.positions, forces, check->terms);
-    check->set_exact(reach);
+    check->set_exact(difference_step);
     return {.name = "contact",
             .add_forces =
-                [=](const Vectors& positions, Vectors& sum) {
+                [=](const Vec3Arrays& positions, Vec3Arrays& sum) {
                     ContactTerms terms;
                     check->evaluate(positions, sum, terms);
                 },
             .energy =
-                [=](const Vectors& positions) {
+                [=](const Vec3Arrays& positions) {
                     ContactTerms terms;
-                    Vectors unused = positions;
+                    Vec3Arrays unused = positions;
                     return check->evaluate(positions, unused, terms);
                 },
-            .multiply = [=](const Vectors& direction, Vectors& product) { check->multiply(direction, product); },
+            .multiply = [=](const Vec3Arrays& direction, Vec3Arrays& product) { check->multiply(direction, product); },
             .exact = [=](int vertex) { return static_cast<bool>(check->exact[vertex]); },
             .kinks = true,
             .internal = false};
@@ -204,7 +208,7 @@ double reach_of(const StepEnd& step) {
     for (int k = 0; k < springs.size(); ++k) {
         if (springs.rest_length[k] > 0.0) shortest = std::min(shortest, springs.rest_length[k]);
     }
-    return derivative_reach_share * shortest;
+    return difference_step_ratio * shortest;
 }
 
 /// "vertex 3 of cloth sheet"
@@ -229,15 +233,17 @@ std::vector<CheckedTerm> checked_terms(const StepEnd& step) {
     std::vector<CheckedTerm> terms;
     add_checked_terms(step, reach_of(step), terms);
     const bool penalty = step.scene.settings.contact_response == ContactResponse::penalty;
-    if (step.scene.plan.contacts && penalty && step.work.newton.current.rows.size() > 0) {
+    if (step.scene.plan.contacts && penalty && step.work.newton.current.constraints.size() > 0) {
         terms.push_back(contact_term(step, reach_of(step)));
     }
     return terms;
 }
 
 void check_derivatives(const StepEnd& step, StepReport& report) {
-    const CheckedState state{
-        .positions = step.end.cloth.positions, .count = step.scene.model.vertex_count(), .reach = reach_of(step), .dt = step.dt};
+    const CheckedState state{.positions = step.end.cloth.positions,
+                             .count = step.scene.model.vertex_count(),
+                             .difference_step = reach_of(step),
+                             .dt = step.dt};
     const std::optional<WrongDerivative> wrong = find_wrong_derivative(checked_terms(step), state);
     if (!wrong) return;
     report.status = StepStatus::wrong_derivative;

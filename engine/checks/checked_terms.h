@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "derivative_check.h"
-#include "span/span.h"
+#include "substep/substep.h"
 
 namespace percale {
 
@@ -13,15 +13,15 @@ struct StepEnd {
     const ClothState& start;  // of the step
     const StepState& end;
     const Workspace& work;  // with the last evaluation
-    double dt;              // s, of its spans
+    double dt;              // s, of its substeps
 };
 
-/// Every force that acts on the cloth there, one function of checked_terms.cpp each. Views what the end names, which must stay as
-/// it is.
+/// Every force that acts on the cloth there, each by a function of checked_terms.cpp. Views the parts of `step`, which must not
+/// change.
 std::vector<CheckedTerm> checked_terms(const StepEnd& step);
 
-/// Checks the derivatives of all of them; what does not fit makes the step a failed one and stands in its report. Explicit
-/// schemes have no matrix and no contact; their forces are compared with energies all the same.
+/// Checks the derivatives of all of them; a misfit makes the step a failed one and is named in its report. Explicit schemes have
+/// no matrix and no contact; their forces are still compared with energies.
 void check_derivatives(const StepEnd& step, StepReport& report);
 
 }  // namespace percale

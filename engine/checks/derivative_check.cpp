@@ -10,7 +10,7 @@
 namespace percale {
 namespace {
 
-/// Between -1 and 1, the same for the same number (splitmix64; Steele, Lea and Flood, OOPSLA 2014).
+/// A value between -1 and 1, the same for the same number (splitmix64; Steele, Lea and Flood, OOPSLA 2014).
 double spread(std::uint64_t number) {
     std::uint64_t z = (number + 1) * 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -18,12 +18,12 @@ double spread(std::uint64_t number) {
     return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1.0;
 }
 
-/// Some vertices.
+/// A range of vertices.
 struct Range {
     int first, last;
 };
 
-double largest(const Vectors& v, int count) {
+double largest(const Vec3Arrays& v, int count) {
     return std::sqrt(largest_term(0, count, [&](int i) { return square_at(v, i); }));
 }
 
@@ -48,20 +48,20 @@ public:
     }
 
 private:
-    Vectors zeros() const {
-        Vectors v;
+    Vec3Arrays zeros() const {
+        Vec3Arrays v;
         v.resize(state_.count);
         return v;
     }
 
-    Vectors forces_at(const Vectors& positions) const {
-        Vectors forces = zeros();
+    Vec3Arrays forces_at(const Vec3Arrays& positions) const {
+        Vec3Arrays forces = zeros();
         term_.add_forces(positions, forces);
         return forces;
     }
 
-    Vectors direction(Range range) const {
-        Vectors d = zeros();
+    Vec3Arrays direction(Range range) const {
+        Vec3Arrays d = zeros();
         for (int i = range.first; i < range.last; ++i) {
             const std::uint64_t number = 3 * static_cast<std::uint64_t>(i);
             d.set(i, {spread(number), spread(number + 1), spread(number + 2)});
@@ -69,9 +69,9 @@ private:
         return d;
     }
 
-    Vectors moved(double factor, const Vectors& along) const {
-        Vectors positions = state_.positions;
-        add_scaled(positions, factor * state_.reach, along);
+    Vec3Arrays moved(double factor, const Vec3Arrays& along) const {
+        Vec3Arrays positions = state_.positions;
+        add_scaled(positions, factor * state_.difference_step, along);
         return positions;
     }
 
@@ -93,7 +93,7 @@ private:
     }
 
     std::optional<WrongDerivative> check_energy() const {
-        const int grain = (state_.count + derivative_stretches - 1) / derivative_stretches;
+        const int grain = (state_.count + derivative_chunks - 1) / derivative_chunks;
         for (int first = 0; first < state_.count; first += grain) {
             const Range range{first, std::min(first + grain, state_.count)};
             if (slope_fits(range)) continue;
@@ -107,7 +107,7 @@ private:
     };
 
     Slopes slopes(Range range) const {
-        Vectors d = direction(range);
+        Vec3Arrays d = direction(range);
         // At a kink of the force a difference of the energy is not its slope.
         for (int i = range.first; i < range.last; ++i) {
             if (term_.kinks && !is_exact(i)) d.set(i, Vec3::Zero());
@@ -118,11 +118,11 @@ private:
             by_forces -= forces_.at(i).dot(d.at(i));
             size += forces_.at(i).norm();
         }
-        // What rounding leaves of the difference, and what a third derivative adds.
+        // The rounding of the difference, and the error by a third derivative.
         const double bend = std::abs(ahead - 2.0 * term_.energy(state_.positions) + behind);
-        const double noise =
-            (1e-3 * derivative_rounding * (std::abs(ahead) + std::abs(behind)) + derivative_accuracy * bend) / state_.reach;
-        return {by_forces, (ahead - behind) / (2.0 * state_.reach),
+        const double noise = (1e-3 * derivative_rounding * (std::abs(ahead) + std::abs(behind)) + derivative_accuracy * bend) /
+                             state_.difference_step;
+        return {by_forces, (ahead - behind) / (2.0 * state_.difference_step),
                 derivative_accuracy * size + derivative_floor_accuracy * largest_force() + noise};
     }
 
@@ -133,7 +133,7 @@ private:
         return std::abs(s.forces - s.energy) <= s.tolerance;
     }
 
-    /// Halves the range as long as a half does not fit either.
+    /// Halves the range as long as one half has the misfit, too.
     WrongDerivative wrong_slope(Range range) const {
         while (range.last - range.first > 1) {
             const int middle = (range.first + range.last) / 2;
@@ -153,16 +153,16 @@ private:
 
     /// -dt^2 J d by differences, and from the matrix.
     struct Products {
-        Vectors differences, matrix;
+        Vec3Arrays differences, matrix;
 
         double mismatch(int i) const { return std::sqrt(square_between(differences, matrix, i)); }
     };
 
     Products products(Range range) const {
-        const Vectors d = direction(range);
+        const Vec3Arrays d = direction(range);
         Products result{forces_at(moved(-1.0, d)), zeros()};
         add_scaled(result.differences, -1.0, forces_at(moved(1.0, d)));
-        const double scale = state_.dt * state_.dt / (2.0 * state_.reach);
+        const double scale = state_.dt * state_.dt / (2.0 * state_.difference_step);
         for (auto* axis : {&result.differences.x, &result.differences.y, &result.differences.z}) {
             for (double& value : *axis) value *= scale;
         }
@@ -176,14 +176,14 @@ private:
         const double floor =
             derivative_floor_accuracy * std::max(largest(p.matrix, state_.count), largest(p.differences, state_.count));
         double excess = 0.0, size = 0.0;
-        const Vectors d = direction(all);
+        const Vec3Arrays d = direction(all);
         for (int i = 0; i < state_.count; ++i) {
             if (term_.kinks && !is_exact(i)) continue;
             excess += d.at(i).dot(p.matrix.at(i) - p.differences.at(i));
             size += p.matrix.at(i).norm() + p.differences.at(i).norm();
             const double own = std::max(p.matrix.at(i).norm(), p.differences.at(i).norm());
             if (p.mismatch(i) <= derivative_accuracy * own + floor || !is_exact(i)) continue;
-            return wrong_row(i);
+            return wrong_constraint(i);
         }
         if (excess >= -derivative_floor_accuracy * size) return {};
         std::ostringstream text;
@@ -193,8 +193,8 @@ private:
 
     bool is_exact(int i) const { return !term_.exact || term_.exact(i); }
 
-    /// Whose motion the row is wrong for: the half with the larger mismatch holds it.
-    WrongDerivative wrong_row(int i) const {
+    /// The vertex whose motion the row is wrong for: the half with the larger mismatch holds it.
+    WrongDerivative wrong_constraint(int i) const {
         Range range{0, state_.count};
         while (range.last - range.first > 1) {
             const int middle = (range.first + range.last) / 2;
@@ -209,7 +209,7 @@ private:
 
     const CheckedTerm& term_;
     const CheckedState& state_;
-    Vectors forces_;
+    Vec3Arrays forces_;
 };
 
 }  // namespace

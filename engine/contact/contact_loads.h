@@ -8,37 +8,39 @@
 
 namespace percale {
 
-/// What one row, or one touch, does to a vertex on behalf of an obstacle, N.
+/// The force of an obstacle on a vertex through one constraint or one friction contact, N.
 struct Push {
     int vertex = -1, obstacle = -1;
     Vec3 normal = Vec3::Zero(), friction = Vec3::Zero();
-    double press = 0.0;           // N, the size of `normal`
+    double normal_force = 0.0;    // N, the size of `normal`
     const Vec3* where = nullptr;  // m, on the obstacle; null where nothing presses
 };
 
-/// Calls visit(push) for every row of an obstacle that pushes, vertex by vertex, and for every touch: friction of projection is
-/// in the rows, that of penalty in the touches.
+/// Calls visit(push) for every vertex of every pushing constraint with an obstacle, and for every friction contact. Friction of
+/// projection is in the constraints, friction of penalty in the friction contacts.
 template <class Visit>
-void for_each_push(const ContactRows& rows, const ContactTerms& terms, const std::vector<RowForce>& row_forces, Visit visit) {
-    for (std::size_t row = 0; row < std::min(rows.size(), row_forces.size()); ++row) {
-        const RowForce& force = row_forces[row];
-        if (rows.obstacle[row] < 0 || force.normal == 0.0) continue;
-        for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
-            const double weight = rows.weight[row][k];
+void for_each_push(const ContactConstraints& constraints, const ContactTerms& terms,
+                   const std::vector<ConstraintForce>& constraint_forces, Visit visit) {
+    for (std::size_t constraint = 0; constraint < std::min(constraints.size(), constraint_forces.size()); ++constraint) {
+        const ConstraintForce& force = constraint_forces[constraint];
+        if (constraints.obstacle[constraint] < 0 || force.normal == 0.0) continue;
+        for (int k = 0; k < 4 && constraints.vertex[constraint][k] >= 0; ++k) {
+            const double weight = constraints.weight[constraint][k];
             if (weight == 0.0) continue;
-            visit(Push{rows.vertex[row][k], rows.obstacle[row], weight * force.normal * rows.direction[row],
-                       weight * force.friction, weight * force.normal, &rows.obstacle_point[row]});
+            visit(Push{constraints.vertex[constraint][k], constraints.obstacle[constraint],
+                       weight * force.normal * constraints.direction[constraint], weight * force.friction, weight * force.normal,
+                       &constraints.obstacle_point[constraint]});
         }
     }
-    for (const Touch& touch : terms.touches.all) {
-        if (touch.obstacle >= 0) visit(Push{touch.vertex, touch.obstacle, Vec3::Zero(), friction_force(touch)});
+    for (const FrictionContact& contact : terms.friction_contacts.all) {
+        if (contact.obstacle >= 0) visit(Push{contact.vertex, contact.obstacle, Vec3::Zero(), friction_force(contact)});
     }
 }
 
-/// What obstacles do to vertices by the rows and forces of one evaluation, sorted by vertex and obstacle; vertices that no active
-/// row presses are left out, and so are rows between cloths. Where the vertices are (cloth_point) is left to the caller.
-/// `only`: of one obstacle; -1: of all.
-std::vector<ContactLoad> contact_loads(const ContactRows& rows, const ContactTerms& terms,
-                                       const std::vector<RowForce>& row_forces, int only = -1);
+/// The forces of obstacles on vertices from the constraints and forces of one evaluation, sorted by vertex and obstacle. Vertices
+/// without an active constraint and constraints between cloths are left out. The caller fills in the places of the vertices
+/// (cloth_point). `only`: one obstacle; -1: all.
+std::vector<ContactLoad> contact_loads(const ContactConstraints& constraints, const ContactTerms& terms,
+                                       const std::vector<ConstraintForce>& constraint_forces, int only = -1);
 
 }  // namespace percale

@@ -10,14 +10,15 @@
 namespace percale {
 namespace {
 
-std::pair<int, int> key(const Grip& grip) { return {grip.vertex, grip.obstacle}; }
+std::pair<int, int> key(const StickAnchor& stick_anchor) { return {stick_anchor.vertex, stick_anchor.obstacle}; }
 
-/// Null if the vertex did not hold on to the obstacle.
-const Grip* grip_at_start(const FrictionStart& start, int vertex, int obstacle) {
+/// Null if the vertex had no stick anchor on the obstacle.
+const StickAnchor* anchor_at_start(const FrictionStart& start, int vertex, int obstacle) {
     const std::pair<int, int> wanted{vertex, obstacle};
-    const auto found = std::lower_bound(start.grips.begin(), start.grips.end(), wanted,
-                                        [](const Grip& grip, const std::pair<int, int>& value) { return key(grip) < value; });
-    return found != start.grips.end() && key(*found) == wanted ? &*found : nullptr;
+    const auto found = std::lower_bound(
+        start.stick_anchors.begin(), start.stick_anchors.end(), wanted,
+        [](const StickAnchor& stick_anchor, const std::pair<int, int>& value) { return key(stick_anchor) < value; });
+    return found != start.stick_anchors.end() && key(*found) == wanted ? &*found : nullptr;
 }
 
 /// The linear part of a pose.
@@ -28,14 +29,14 @@ Eigen::Matrix3d matrix_of(const Pose& pose) {
     return m;
 }
 
-double spring_energy(double press, double reach, double slip) {
-    const double stretch = std::min(slip, reach);
-    return 0.5 * press / reach * stretch * stretch;
+double spring_energy(double friction_limit, double stick_threshold, double slip) {
+    const double stretch = std::min(slip, stick_threshold);
+    return 0.5 * friction_limit / stick_threshold * stretch * stretch;
 }
 
 }  // namespace
 
-ObstacleFlow obstacle_flow(const Pose& start, const Pose& end, double fraction) {
+ObstacleMotion obstacle_motion(const Pose& start, const Pose& end, double fraction) {
     if (start == end) return {};
     // x(s) = (1 - s) (t0 + R0 y) + s (t1 + R1 y) for the point y of the obstacle.
     const Vec3 shift = end.translation - start.translation;
@@ -44,87 +45,101 @@ ObstacleFlow obstacle_flow(const Pose& start, const Pose& end, double fraction) 
     return {turn, shift - turn * (start.translation + fraction * shift)};
 }
 
-void Touches::clear(std::size_t vertices) {
-    for (const Touch& touch : all) first[touch.vertex] = -1;
+void FrictionContacts::clear(std::size_t vertices) {
+    for (const FrictionContact& contact : all) first[contact.vertex] = -1;
     all.clear();
     first.resize(vertices, -1);
 }
 
-const Touch* Touches::find(int vertex, int obstacle) const {
+const FrictionContact* FrictionContacts::find(int vertex, int obstacle) const {
     if (vertex >= static_cast<int>(first.size())) return nullptr;
     int at = first[vertex];
     while (at >= 0 && all[at].obstacle != obstacle) at = all[at].next;
     return at >= 0 ? &all[at] : nullptr;
 }
 
-Touch& Touches::get(int vertex, int obstacle) {
-    if (const Touch* found = find(vertex, obstacle)) return all[found - all.data()];
-    Touch touch;
-    touch.vertex = vertex;
-    touch.obstacle = obstacle;
-    touch.next = first[vertex];
+FrictionContact& FrictionContacts::get(int vertex, int obstacle) {
+    if (const FrictionContact* found = find(vertex, obstacle)) return all[found - all.data()];
+    FrictionContact contact;
+    contact.vertex = vertex;
+    contact.obstacle = obstacle;
+    contact.next = first[vertex];
     first[vertex] = static_cast<int>(all.size());
-    return all.emplace_back(touch);
+    return all.emplace_back(contact);
 }
 
-void set_slip(const FrictionStart& start, const Vec3& position, double fraction, Touch& touch) {
-    const Grip* grip = grip_at_start(start, touch.vertex, touch.obstacle);
-    touch.old = grip != nullptr;
-    const Vec3 held = start.positions->at(touch.vertex) - (grip ? grip->stretch : Vec3(Vec3::Zero()));
-    if (touch.obstacle < static_cast<int>(start.flows.size())) {
-        const ObstacleFlow& flow = start.flows[touch.obstacle];
-        touch.flow = flow.deforms ? Vec3(touch.carried / touch.load) : Vec3(flow.turn * held + flow.shift);
+void set_slip(const FrictionStart& start, const Vec3& position, double fraction, FrictionContact& contact) {
+    const StickAnchor* stick_anchor = anchor_at_start(start, contact.vertex, contact.obstacle);
+    contact.had_anchor = stick_anchor != nullptr;
+    const Vec3 held = start.positions->at(contact.vertex) - (stick_anchor ? stick_anchor->stretch : Vec3(Vec3::Zero()));
+    if (contact.obstacle < static_cast<int>(start.obstacle_motions.size())) {
+        const ObstacleMotion& motion = start.obstacle_motions[contact.obstacle];
+        contact.obstacle_displacement =
+            motion.deforms ? Vec3(contact.carried / contact.load) : Vec3(motion.turn * held + motion.shift);
     }
-    touch.slip = tangential(position - held - (fraction - start.fraction) * touch.flow, touch.press.normalized());
+    contact.slip = tangential(position - held - (fraction - start.fraction) * contact.obstacle_displacement,
+                              contact.friction_limit.normalized());
 }
 
-Rub rub_of(const FrictionStart& start, const ContactRows& rows, int row, double normal_force, const Vectors& positions) {
-    Rub rub{.row = row, .press = rows.friction[row] * normal_force, .reach = stick_reach_share * rows.thickness[row]};
-    for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
-        const int vertex = rows.vertex[row][k];
-        rub.moved += rows.weight[row][k] * (positions.at(vertex) - start.positions->at(vertex));
+ClothFrictionContact cloth_friction_contact(const FrictionStart& start, const ContactConstraints& constraints, int constraint,
+                                            double normal_force, const Vec3Arrays& positions) {
+    ClothFrictionContact contact{.constraint = constraint,
+                                 .friction_limit = constraints.friction[constraint] * normal_force,
+                                 .stick_threshold = stick_threshold_ratio * constraints.thickness[constraint]};
+    for (int k = 0; k < 4 && constraints.vertex[constraint][k] >= 0; ++k) {
+        const int vertex = constraints.vertex[constraint][k];
+        contact.moved += constraints.weight[constraint][k] * (positions.at(vertex) - start.positions->at(vertex));
     }
-    rub.moved = tangential(rub.moved, rows.direction[row]);
-    rub.slip = rub.moved;
-    if (!start.held) return rub;
-    const RowForce before = start.held->of(row_key(rows, row));
+    contact.moved = tangential(contact.moved, constraints.direction[constraint]);
+    contact.slip = contact.moved;
+    if (!start.held) return contact;
+    const ConstraintForce before = start.held->of(constraint_key(constraints, constraint));
     if (before.normal > 0.0) {
-        rub.slip -= rub.reach / (rows.friction[row] * before.normal) * tangential(before.friction, rows.direction[row]);
+        contact.slip -= contact.stick_threshold / (constraints.friction[constraint] * before.normal) *
+                        tangential(before.friction, constraints.direction[constraint]);
     }
-    return rub;
+    return contact;
 }
 
-Vec3 friction_force(const Touch& touch) { return -touch.press.norm() / std::max(touch.slip.norm(), touch.reach) * touch.slip; }
+Vec3 friction_force(const FrictionContact& contact) {
+    return -contact.friction_limit.norm() / std::max(contact.slip.norm(), contact.stick_threshold) * contact.slip;
+}
 
-Vec3 friction_force(const Rub& rub) { return -rub.press / std::max(rub.slip.norm(), rub.reach) * rub.slip; }
+Vec3 friction_force(const ClothFrictionContact& contact) {
+    return -contact.friction_limit / std::max(contact.slip.norm(), contact.stick_threshold) * contact.slip;
+}
 
-double grip_energy(const Touches& touches) {
+double stick_energy(const FrictionContacts& friction_contacts) {
     double energy = 0.0;
-    for (const Touch& touch : touches.all) energy += spring_energy(touch.press.norm(), touch.reach, touch.slip.norm());
+    for (const FrictionContact& contact : friction_contacts.all)
+        energy += spring_energy(contact.friction_limit.norm(), contact.stick_threshold, contact.slip.norm());
     return energy;
 }
 
-double grip_energy(std::span<const Rub> rubs) {
+double stick_energy(std::span<const ClothFrictionContact> cloth_friction_contacts) {
     double energy = 0.0;
-    for (const Rub& rub : rubs) energy += spring_energy(rub.press, rub.reach, rub.slip.norm());
+    for (const ClothFrictionContact& contact : cloth_friction_contacts)
+        energy += spring_energy(contact.friction_limit, contact.stick_threshold, contact.slip.norm());
     return energy;
 }
 
-void set_grips(const Touches& touches, std::vector<Grip>& grips) {
-    grips.clear();
-    for (const Touch& touch : touches.all) {
-        const double length = touch.slip.norm();
-        const double kept = length > touch.reach ? touch.reach / length : 1.0;
-        grips.push_back({touch.vertex, touch.obstacle, kept * touch.slip});
+void set_stick_anchors(const FrictionContacts& friction_contacts, std::vector<StickAnchor>& stick_anchors) {
+    stick_anchors.clear();
+    for (const FrictionContact& contact : friction_contacts.all) {
+        const double length = contact.slip.norm();
+        const double kept = length > contact.stick_threshold ? contact.stick_threshold / length : 1.0;
+        stick_anchors.push_back({contact.vertex, contact.obstacle, kept * contact.slip});
     }
-    std::sort(grips.begin(), grips.end(), [](const Grip& a, const Grip& b) { return key(a) < key(b); });
+    std::sort(stick_anchors.begin(), stick_anchors.end(),
+              [](const StickAnchor& a, const StickAnchor& b) { return key(a) < key(b); });
 }
 
-void set_held(const ContactRows& rows, std::span<const Rub> rubs, const std::vector<RowForce>& row_forces,
-              ContactMultipliers& held) {
-    held.clear(rubs.size());
-    for (const Rub& rub : rubs) {
-        held.add(row_key(rows, rub.row), {.normal = row_forces[rub.row].normal, .friction = friction_force(rub)});
+void set_held(const ContactConstraints& constraints, std::span<const ClothFrictionContact> cloth_friction_contacts,
+              const std::vector<ConstraintForce>& constraint_forces, ContactMultipliers& held) {
+    held.clear(cloth_friction_contacts.size());
+    for (const ClothFrictionContact& contact : cloth_friction_contacts) {
+        held.add(constraint_key(constraints, contact.constraint),
+                 {.normal = constraint_forces[contact.constraint].normal, .friction = friction_force(contact)});
     }
 }
 

@@ -10,77 +10,80 @@
 
 namespace percale {
 
-/// Motion of an obstacle over a whole step: its point that is at p when the stage begins moves by turn p + shift, m.
-struct ObstacleFlow {
+/// Motion of an obstacle over a whole step: its point at p at the start of the stage moves by turn p + shift, m.
+struct ObstacleMotion {
     Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
     Vec3 shift = Vec3::Zero();
-    bool deforms = false;  // none: each of its points goes its own way, as the rows say
+    bool deforms = false;  // no rigid motion: each point has its own displacement, which the constraints hold
 };
 
-/// Of an obstacle whose vertices go straight from `start` to `end`, for a stage that begins at `fraction` of the step.
-ObstacleFlow obstacle_flow(const Pose& start, const Pose& end, double fraction);
+/// The motion of an obstacle with vertices on straight lines from `start` to `end`; the stage begins at `fraction` of the step.
+ObstacleMotion obstacle_motion(const Pose& start, const Pose& end, double fraction);
 
-/// What all evaluations of one stage know of friction.
+/// The data of friction that all evaluations of one stage share.
 struct FrictionStart {
-    const Vectors* positions = nullptr;        // m, when the stage begins
-    double fraction = 0.0;                     // of the whole step, then
-    std::span<const Grip> grips = {};          // then; sorted by vertex and obstacle
-    std::span<const ObstacleFlow> flows = {};  // of each obstacle; those not listed stay
-    const ContactMultipliers* held = nullptr;  // of rows between cloths, as set_held leaves them; null: nothing
+    const Vec3Arrays* positions = nullptr;                  // m, at the start of the stage
+    double fraction = 0.0;                                  // of the whole step, at the start of the stage
+    std::span<const StickAnchor> stick_anchors = {};        // at the start of the stage; sorted by vertex and obstacle
+    std::span<const ObstacleMotion> obstacle_motions = {};  // of each obstacle; those beyond the list are at rest
+    const ContactMultipliers* held = nullptr;               // of the constraints between cloths, from set_held; null: none
 };
 
-/// A vertex pressed to an obstacle, by all their rows together.
-struct Touch {
+/// A vertex in contact with an obstacle: the sum over all constraints between them.
+struct FrictionContact {
     int vertex = -1, obstacle = -1;
-    int next = -1;                // touch of the same vertex with another obstacle
-    Vec3 press = Vec3::Zero();    // N, friction coefficient times normal force
-    double reach = 0.0;           // m, slip up to which it sticks
-    bool old = false;             // it held on when the stage began
-    Vec3 flow = Vec3::Zero();     // m, how far the point held moves in the whole step
-    Vec3 carried = Vec3::Zero();  // m N, of a deforming obstacle: sum of the rows' displacements times their press
-    double load = 0.0;            // N, sum of the rows' presses likewise
-    Vec3 slip = Vec3::Zero();     // m, along the surface, from the point held
-    Vec3 heading = Vec3::Zero();  // unit, where the matrix lets it slide; zero: nowhere
+    int next = -1;                              // friction contact of the same vertex with another obstacle
+    Vec3 friction_limit = Vec3::Zero();         // N, friction coefficient times normal force
+    double stick_threshold = 0.0;               // m, slip up to which it sticks
+    bool had_anchor = false;                    // it had a stick anchor when the stage began
+    Vec3 obstacle_displacement = Vec3::Zero();  // m, displacement of the anchor's point in the whole step
+    Vec3 carried = Vec3::Zero();                // m N, of a deforming obstacle: sum of obstacle displacements times normal forces
+    double load = 0.0;                          // N, of a deforming obstacle: sum of the normal forces
+    Vec3 slip = Vec3::Zero();                   // m, tangential, from the stick anchor
+    Vec3 slip_direction = Vec3::Zero();         // unit, in which the matrix leaves it free; zero: none
 };
 
-/// Two cloths that a row presses together.
-struct Rub {
-    int row = -1;
-    double press = 0.0, reach = 0.0;  // N, friction coefficient times normal force; m, slip up to which they stick
-    Vec3 slip = Vec3::Zero();         // m, along the contact, of the first side from where the second holds it
-    Vec3 moved = Vec3::Zero();        // m, what the stage added to it
+/// Friction of a constraint between two cloths.
+struct ClothFrictionContact {
+    int constraint = -1;
+    double friction_limit = 0.0,
+           stick_threshold = 0.0;  // N, friction coefficient times normal force; m, slip up to which they stick
+    Vec3 slip = Vec3::Zero();      // m, tangential, of the first side from its anchor on the second
+    Vec3 moved = Vec3::Zero();     // m, the part of the slip that the stage added
 };
 
-/// The touches of one evaluation.
-struct Touches {
-    std::vector<Touch> all;
+/// The friction contacts of one evaluation.
+struct FrictionContacts {
+    std::vector<FrictionContact> all;
     std::vector<int> first;  // of each vertex, or -1
 
     void clear(std::size_t vertices);
-    Touch& get(int vertex, int obstacle);
-    const Touch* find(int vertex, int obstacle) const;
+    FrictionContact& get(int vertex, int obstacle);
+    const FrictionContact* find(int vertex, int obstacle) const;
 };
 
-/// Sets flow and slip of a touch whose press is known. A point of a deforming obstacle moves as the points that press do in the
-/// mean. For the vertex being at `position` at `fraction` of the step.
-void set_slip(const FrictionStart& start, const Vec3& position, double fraction, Touch& touch);
+/// Sets the obstacle displacement and the slip of a friction contact with a known friction limit, for the vertex at `position` at
+/// `fraction` of the step. A point of a deforming obstacle moves by the mean of the pressing points, weighted by normal force.
+void set_slip(const FrictionStart& start, const Vec3& position, double fraction, FrictionContact& contact);
 
-/// Of a row between cloths that presses with `normal_force`, N, the vertices being at `positions`, m.
-Rub rub_of(const FrictionStart& start, const ContactRows& rows, int row, double normal_force, const Vectors& positions);
+/// The friction of a constraint between cloths with a normal force of `normal_force`, N, and vertices at `positions`, m.
+ClothFrictionContact cloth_friction_contact(const FrictionStart& start, const ContactConstraints& constraints, int constraint,
+                                            double normal_force, const Vec3Arrays& positions);
 
-/// Coulomb's law with a spring that sticks: -press/reach slip up to the reach, press against the slip beyond.
-Vec3 friction_force(const Touch& touch);
-Vec3 friction_force(const Rub& rub);
+/// Coulomb's law with a sticking spring: -limit/threshold slip up to the stick threshold, the limit against the slip beyond.
+Vec3 friction_force(const FrictionContact& contact);
+Vec3 friction_force(const ClothFrictionContact& contact);
 
-/// Energy of the springs by which touches and rubs hold, J.
-double grip_energy(const Touches& touches);
-double grip_energy(std::span<const Rub> rubs);
+/// Energy of the springs by which friction contacts stick, J.
+double stick_energy(const FrictionContacts& friction_contacts);
+double stick_energy(std::span<const ClothFrictionContact> cloth_friction_contacts);
 
-/// The grips that touches leave behind: of a sliding one the point held is dragged along.
-void set_grips(const Touches& touches, std::vector<Grip>& grips);
+/// Sets the stick anchors that friction contacts leave behind. A sliding contact drags its anchor along.
+void set_stick_anchors(const FrictionContacts& friction_contacts, std::vector<StickAnchor>& stick_anchors);
 
-/// The same of rows between cloths, by their keys and as forces: a row that pressed by N with friction F held at -reach F/(mu N).
-void set_held(const ContactRows& rows, std::span<const Rub> rubs, const std::vector<RowForce>& row_forces,
-              ContactMultipliers& held);
+/// The same for constraints between cloths, as forces by their keys: friction F with normal force N stands for the slip
+/// -threshold F/(mu N).
+void set_held(const ContactConstraints& constraints, std::span<const ClothFrictionContact> cloth_friction_contacts,
+              const std::vector<ConstraintForce>& constraint_forces, ContactMultipliers& held);
 
 }  // namespace percale

@@ -9,20 +9,21 @@ namespace {
 
 constexpr int any_feature = -2;  // of an obstacle
 
-RowKey of_cloth_feature(RowKey key) {
+ConstraintKey of_cloth_feature(ConstraintKey key) {
     key.feature = any_feature;
     return key;
 }
 
-/// Whether a row is off the obstacle, and another of its cloth feature nearer.
-bool has_left(const ContactRows& rows, int row, int nearest, const RowClearance& clearance) {
-    const double cloth_thickness = rows.thickness[row] / clearance.zone;
-    const double from = std::max(cloth_thickness, rows.distance[nearest]) + clearance.share * cloth_thickness;
-    return rows.distance[row] > from && rows.direction[row].dot(rows.direction[nearest]) > least_handing_cosine;
+/// Whether a constraint is off the obstacle, and another one of its cloth feature is nearer.
+bool has_left(const ContactConstraints& constraints, int constraint, int nearest, const ConstraintClearance& clearance) {
+    const double cloth_thickness = constraints.thickness[constraint] / clearance.activation_ratio;
+    const double from = std::max(cloth_thickness, constraints.distance[nearest]) + clearance.ratio * cloth_thickness;
+    return constraints.distance[constraint] > from &&
+           constraints.direction[constraint].dot(constraints.direction[nearest]) > min_transfer_cosine;
 }
 
-/// All forces by their keys, in whatever order they came.
-void set_ordered(const RowTable<RowForce>& forces, std::vector<KeyedForce>& ordered) {
+/// All forces, sorted by their keys.
+void set_ordered(const ConstraintTable<ConstraintForce>& forces, std::vector<KeyedForce>& ordered) {
     ordered.clear();
     for (const auto& [key, force] : forces.entries()) ordered.push_back({key, force});
     std::sort(ordered.begin(), ordered.end(), [](const KeyedForce& a, const KeyedForce& b) { return a.key < b.key; });
@@ -30,27 +31,29 @@ void set_ordered(const RowTable<RowForce>& forces, std::vector<KeyedForce>& orde
 
 }  // namespace
 
-RowKey row_key(const ContactRows& rows, std::size_t row) {
-    return {.vertex = rows.vertex[row], .obstacle = rows.obstacle[row], .feature = rows.feature[row]};
+ConstraintKey constraint_key(const ContactConstraints& constraints, std::size_t constraint) {
+    return {.vertex = constraints.vertex[constraint],
+            .obstacle = constraints.obstacle[constraint],
+            .feature = constraints.feature[constraint]};
 }
 
-void ContactMultipliers::hand_over(const ContactRows& rows, const RowClearance& clearance) {
+void ContactMultipliers::transfer(const ContactConstraints& constraints, const ConstraintClearance& clearance) {
     if (forces_.entries().empty()) return;
-    places_.clear(2 * rows.size());
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-        const RowKey key = row_key(rows, row);
-        const int number = static_cast<int>(row);
+    places_.clear(2 * constraints.size());
+    for (std::size_t constraint = 0; constraint < constraints.size(); ++constraint) {
+        const ConstraintKey key = constraint_key(constraints, constraint);
+        const int number = static_cast<int>(constraint);
         places_.at(key) = number;
-        if (rows.obstacle[row] < 0 || rows.share[row] < least_handed_share) continue;
+        if (constraints.obstacle[constraint] < 0 || constraints.mollifier[constraint] < min_transfer_ratio) continue;
         const int* known = places_.find(of_cloth_feature(key));
-        if (!known || rows.distance[row] < rows.distance[*known]) places_.at(of_cloth_feature(key)) = number;
+        if (!known || constraints.distance[constraint] < constraints.distance[*known]) places_.at(of_cloth_feature(key)) = number;
     }
     set_ordered(forces_, ordered_);
     forces_.clear(ordered_.size());
     for (const auto& [key, force] : ordered_) {
         const int *own = places_.find(key), *nearest = places_.find(of_cloth_feature(key));
-        const bool goes_on = nearest && (!own || has_left(rows, *own, *nearest, clearance));
-        RowForce& handed = forces_.at(goes_on ? row_key(rows, *nearest) : key);
+        const bool goes_on = nearest && (!own || has_left(constraints, *own, *nearest, clearance));
+        ConstraintForce& handed = forces_.at(goes_on ? constraint_key(constraints, *nearest) : key);
         handed.normal += force.normal;
         handed.friction += force.friction;
         handed.stiffness = std::max(handed.stiffness, force.stiffness);
@@ -68,9 +71,9 @@ void ContactMultipliers::set(std::span<const KeyedForce> all) {
     for (const auto& [key, force] : all) add(key, force);
 }
 
-RowForce ContactMultipliers::of(const RowKey& key) const {
-    const RowForce* force = forces_.find(key);
-    return force ? *force : RowForce{};
+ConstraintForce ContactMultipliers::of(const ConstraintKey& key) const {
+    const ConstraintForce* force = forces_.find(key);
+    return force ? *force : ConstraintForce{};
 }
 
 }  // namespace percale

@@ -4,54 +4,55 @@
 #include <span>
 #include <vector>
 
+#include "constraint_table.h"
 #include "percale/contact.h"
-#include "row_table.h"
 
 namespace percale {
 
-RowKey row_key(const ContactRows& rows, std::size_t row);
+ConstraintKey constraint_key(const ContactConstraints& constraints, std::size_t constraint);
 
-/// The force of one row on the cloth: `normal` >= 0 along the row's direction and the friction, N.
-struct RowForce {
+/// The force of one constraint on the cloth, N: `normal` >= 0 along its direction, and the friction.
+struct ConstraintForce {
     double normal = 0.0;
     Vec3 friction = Vec3::Zero();
-    double stiffness = 0.0;  // N/m, that it was found with
+    double stiffness = 0.0;  // N/m, with which it was computed
 };
 
 struct KeyedForce {
-    RowKey key;
-    RowForce force;
+    ConstraintKey key;
+    ConstraintForce force;
 };
 
-/// From where on a row counts as off the obstacle.
-struct RowClearance {
-    double zone = 1.0;   // the rows' thickness over the cloth's
-    double share = 0.0;  // of the cloth's thickness, beyond it
+/// The clearance from which on a constraint counts as off the obstacle.
+struct ConstraintClearance {
+    double activation_ratio = 1.0;  // thickness of the constraints over that of the cloth
+    double ratio = 0.0;             // clearance beyond the cloth's thickness, over that thickness
 };
 
-/// Contact forces found again by row. A row that is not known has none.
+/// Contact forces, found again by the keys of their constraints. An unknown constraint has no force.
 class ContactMultipliers {
 public:
-    /// Forgets everything and makes room for that many rows.
-    void clear(std::size_t rows) { forces_.clear(rows); }
-    /// Each key once.
-    void add(const RowKey& key, const RowForce& force) { forces_.at(key) = force; }
-    RowForce of(const RowKey& key) const;
+    /// Forgets everything and reserves memory for that many constraints.
+    void clear(std::size_t constraints) { forces_.clear(constraints); }
+    /// Each key may be added once.
+    void add(const ConstraintKey& key, const ConstraintForce& force) { forces_.at(key) = force; }
+    ConstraintForce of(const ConstraintKey& key) const;
     std::size_t size() const { return forces_.entries().size(); }
 
-    /// Where facets pass under a feature of the cloth, a force goes on with it: from a row that is gone, or off and farther than
-    /// another, to the nearest row of the same feature of the cloth on the same obstacle that has most of its stiffness. Left
-    /// where it was it would act behind the place of contact and only slowly move on. Between cloths forces stay where they are.
-    void hand_over(const ContactRows& rows, const RowClearance& clearance);
+    /// Where facets pass under a feature of the cloth, a force moves on with it: from a constraint that is gone, or off and
+    /// farther than another, to the nearest constraint of the same cloth feature with the same obstacle that has most of its
+    /// stiffness. Left where it was, it would act behind the place of contact and move on only slowly. Forces between cloths stay
+    /// where they are.
+    void transfer(const ContactConstraints& constraints, const ConstraintClearance& clearance);
 
-    /// All that are known, by their keys, and back.
+    /// All known forces with their keys, and the reverse.
     std::vector<KeyedForce> all() const;
     void set(std::span<const KeyedForce> all);
 
 private:
-    RowTable<RowForce> forces_;
-    RowTable<int> places_;             // scratch space of hand_over: numbers of rows
-    std::vector<KeyedForce> ordered_;  // likewise: the forces before it, as sums depend on their order
+    ConstraintTable<ConstraintForce> forces_;
+    ConstraintTable<int> places_;      // scratch space of transfer: numbers of constraints
+    std::vector<KeyedForce> ordered_;  // likewise: the forces before it, sorted as sums depend on their order
 };
 
 }  // namespace percale

@@ -8,204 +8,229 @@
 namespace percale {
 namespace {
 
-/// What a_k of a row's vertices makes at the contact: the mean by weight against an obstacle; between cloths, where both sides
-/// give way, 1 / sum w_k^2/a_k.
+/// Combines values a_k of a constraint's vertices: the weighted mean against an obstacle; between cloths, where both sides give
+/// way, 1 / sum w_k^2/a_k.
 template <class Value>
-double at_contact(const ContactRows& rows, std::size_t row, Value value) {
-    const bool between_cloths = rows.obstacle[row] < 0;
+double at_contact(const ContactConstraints& constraints, std::size_t constraint, Value value) {
+    const bool between_cloths = constraints.obstacle[constraint] < 0;
     double sum = 0.0;
-    for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
-        const double weight = rows.weight[row][k], a = value(rows.vertex[row][k]);
+    for (int k = 0; k < 4 && constraints.vertex[constraint][k] >= 0; ++k) {
+        const double weight = constraints.weight[constraint][k], a = value(constraints.vertex[constraint][k]);
         sum += between_cloths ? weight * weight / a : weight * a;
     }
     return between_cloths ? 1.0 / sum : sum;
 }
 
-/// 1/dt^2 for the share of the masses: of this span where the obstacle comes or goes by a fifth of the thickness or more in the
-/// step. A span may be far shorter than its step, and what contact then stored nobody would have paid for: no more than stops
-/// cloth at the obstacle's speed u within a share s of the thickness h, (u/(s h))^2.
-double inverse_square_dt(const ContactRows& rows, std::size_t row, const ContactStep& step) {
-    const double displacement = std::abs(rows.direction[row].dot(rows.obstacle_displacement[row]));
-    const double share = std::min(displacement / (moving_obstacle_share * rows.thickness[row]), 1.0);
+/// 1/dt^2 for the inertial part: dt of this substep where the obstacle moves along the normal by a fifth of the thickness or more
+/// in the step. A substep may be far shorter than its step, and the energy that contact then stores would come from nowhere: the
+/// result is at most what stops cloth at the obstacle's speed u within a fraction s of the thickness h, (u/(s h))^2.
+double inverse_square_dt(const ContactConstraints& constraints, std::size_t constraint, const ContactStep& step) {
+    const double displacement = std::abs(constraints.direction[constraint].dot(constraints.obstacle_displacement[constraint]));
+    const double ratio = std::min(displacement / (moving_obstacle_ratio * constraints.thickness[constraint]), 1.0);
     const double longer = std::max(step.dt, step.stiffness_dt);
-    const double of_both = share / (step.dt * step.dt) + (1.0 - share) / (longer * longer);
+    const double of_both = ratio / (step.dt * step.dt) + (1.0 - ratio) / (longer * longer);
     if (longer == step.dt) return of_both;
-    const double stopping = displacement * step.obstacle_rate / (stopping_share * rows.thickness[row]);  // 1/s
+    const double stopping = displacement * step.obstacle_rate / (stopping_ratio * constraints.thickness[constraint]);  // 1/s
     return std::min(of_both, std::max(1.0 / (longer * longer), stopping * stopping));
 }
 
-double row_stiffness(const ContactRows& rows, std::size_t row, const ContactStep& step) {
-    const Vec3& n = rows.direction[row];
-    const double inertia = at_contact(rows, row, [&](int vertex) { return quadratic_form(step.diagonal->block(vertex), n); });
-    const double inert = std::min(inertia, at_contact(rows, row, [&](int vertex) { return (*step.mass)[vertex]; }));
-    double mass = 0.0, press = 0.0, squares = 0.0;
-    for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
-        const int vertex = rows.vertex[row][k];
-        const double weight = rows.weight[row][k];
+double constraint_stiffness(const ContactConstraints& constraints, std::size_t constraint, const ContactStep& step) {
+    const Vec3& n = constraints.direction[constraint];
+    const double inertia =
+        at_contact(constraints, constraint, [&](int vertex) { return quadratic_form(step.diagonal->block(vertex), n); });
+    const double inert = std::min(inertia, at_contact(constraints, constraint, [&](int vertex) { return (*step.mass)[vertex]; }));
+    double mass = 0.0, load = 0.0, squares = 0.0;
+    for (int k = 0; k < 4 && constraints.vertex[constraint][k] >= 0; ++k) {
+        const int vertex = constraints.vertex[constraint][k];
+        const double weight = constraints.weight[constraint][k];
         mass += std::abs(weight) * (*step.mass)[vertex];
         squares += weight * weight;
-        if (step.load) press -= weight * n.dot(step.load->at(vertex));
+        if (step.load) load -= weight * n.dot(step.load->at(vertex));
     }
-    const double static_load = std::max(mass * step.gravity.norm(), press / squares);
-    const double of_matrix = inert * inverse_square_dt(rows, row, step) + (inertia - inert) / (step.dt * step.dt);
-    return rows.share[row] *
-           std::max(penalty_stiffness_share * of_matrix, static_load_factor * static_load / rows.thickness[row]);
+    const double static_load = std::max(mass * step.gravity.norm(), load / squares);
+    const double of_matrix = inert * inverse_square_dt(constraints, constraint, step) + (inertia - inert) / (step.dt * step.dt);
+    return constraints.mollifier[constraint] *
+           std::max(penalty_stiffness_ratio * of_matrix, static_load_factor * static_load / constraints.thickness[constraint]);
 }
 
-/// Gives the vertices of a row their share of what presses them to the obstacle. Normals that point apart, of the two sides of a
-/// gap, press both.
-void add_press(const ContactRows& rows, std::size_t row, double normal_force, const ContactStep& step, Touches& touches) {
-    const std::span<const ObstacleFlow> flows = step.friction->flows;
-    const bool deforms = rows.obstacle[row] < static_cast<int>(flows.size()) && flows[rows.obstacle[row]].deforms;
-    const Vec3 press = rows.friction[row] * normal_force * rows.direction[row];
-    for (int k = 0; k < 4 && rows.vertex[row][k] >= 0; ++k) {
-        if (rows.weight[row][k] <= 0.0) continue;
-        Touch& touch = touches.get(rows.vertex[row][k], rows.obstacle[row]);
-        touch.press += (touch.press.dot(press) < 0.0 ? -1.0 : 1.0) * rows.weight[row][k] * press;
-        touch.reach = stick_reach_share * rows.thickness[row];
+/// Adds the normal force of a constraint with an obstacle to the friction contacts of its vertices. Opposed normals, from the two
+/// sides of a gap, both add to the limit.
+void add_normal_force(const ContactConstraints& constraints, std::size_t constraint, double normal_force, const ContactStep& step,
+                      FrictionContacts& friction_contacts) {
+    const std::span<const ObstacleMotion> obstacle_motions = step.friction->obstacle_motions;
+    const bool deforms = constraints.obstacle[constraint] < static_cast<int>(obstacle_motions.size()) &&
+                         obstacle_motions[constraints.obstacle[constraint]].deforms;
+    const Vec3 friction_limit = constraints.friction[constraint] * normal_force * constraints.direction[constraint];
+    for (int k = 0; k < 4 && constraints.vertex[constraint][k] >= 0; ++k) {
+        if (constraints.weight[constraint][k] <= 0.0) continue;
+        FrictionContact& friction_contact =
+            friction_contacts.get(constraints.vertex[constraint][k], constraints.obstacle[constraint]);
+        friction_contact.friction_limit += (friction_contact.friction_limit.dot(friction_limit) < 0.0 ? -1.0 : 1.0) *
+                                           constraints.weight[constraint][k] * friction_limit;
+        friction_contact.stick_threshold = stick_threshold_ratio * constraints.thickness[constraint];
         if (!deforms) continue;
-        touch.load += rows.weight[row][k] * normal_force;
-        touch.carried += rows.weight[row][k] * normal_force * rows.obstacle_displacement[row];
+        friction_contact.load += constraints.weight[constraint][k] * normal_force;
+        friction_contact.carried +=
+            constraints.weight[constraint][k] * normal_force * constraints.obstacle_displacement[constraint];
     }
 }
 
-/// Where the matrix lets a vertex slide. An active set: what was held and slipped slides, what turned back is held. At the first
-/// sight of a touch it slides if it did so before or if friction at its limit cannot stop it within the step.
-Vec3 heading(const Touch& touch, const ContactStep& step) {
-    const double length = touch.slip.norm();
-    if (length <= touch.reach) return Vec3::Zero();
-    const Vec3 along = touch.slip / length;
-    if (const Touch* before = step.previous ? step.previous->find(touch.vertex, touch.obstacle) : nullptr) {
-        if (touch.slip == before->slip) return before->heading;  // others were moved alone
-        return along.dot(before->heading) < 0.0 ? Vec3(Vec3::Zero()) : along;
+/// The direction in which the matrix leaves a vertex free, an active set: a contact that stuck and slipped slides, one that
+/// turned back sticks. At its first evaluation it slides if it is old or if friction at its limit cannot stop it within the step.
+Vec3 slip_direction(const FrictionContact& friction_contact, const ContactStep& step) {
+    const double length = friction_contact.slip.norm();
+    if (length <= friction_contact.stick_threshold) return Vec3::Zero();
+    const Vec3 along = friction_contact.slip / length;
+    if (const FrictionContact* before =
+            step.previous ? step.previous->find(friction_contact.vertex, friction_contact.obstacle) : nullptr) {
+        if (friction_contact.slip == before->slip) return before->slip_direction;  // only other vertices have moved
+        return along.dot(before->slip_direction) < 0.0 ? Vec3(Vec3::Zero()) : along;
     }
-    const double stopping = step.dt * step.dt * touch.press.norm();
-    return touch.old || length * (*step.mass)[touch.vertex] > stopping ? along : Vec3(Vec3::Zero());
+    const double stopping = step.dt * step.dt * friction_contact.friction_limit.norm();
+    return friction_contact.had_anchor || length * (*step.mass)[friction_contact.vertex] > stopping ? along : Vec3(Vec3::Zero());
 }
 
-/// Force and matrix of a touch whose press is known.
-void add_friction(const ContactStep& step, const Vectors& positions, Touch& touch, Vectors& forces, ContactTerms& terms) {
-    set_slip(*step.friction, positions.at(touch.vertex), step.fraction, touch);
-    touch.heading = heading(touch, step);
-    const double limit = touch.press.norm();
-    CoupledBlock block{.vertex = {touch.vertex, -1, -1, -1}, .weight = {1.0, 0.0, 0.0, 0.0}, .k = {}};
-    const double stiffness = limit / std::max(touch.slip.norm(), touch.reach);
-    add_tangent_block(block.k, step.dt * step.dt * stiffness, touch.press / limit, touch.heading);
+/// Adds force and matrix of a friction contact with a known friction limit.
+void add_friction(const ContactStep& step, const Vec3Arrays& positions, FrictionContact& friction_contact, Vec3Arrays& forces,
+                  ContactTerms& terms) {
+    set_slip(*step.friction, positions.at(friction_contact.vertex), step.fraction, friction_contact);
+    friction_contact.slip_direction = slip_direction(friction_contact, step);
+    const double limit = friction_contact.friction_limit.norm();
+    CoupledBlock block{.vertex = {friction_contact.vertex, -1, -1, -1}, .weight = {1.0, 0.0, 0.0, 0.0}, .k = {}};
+    const double stiffness = limit / std::max(friction_contact.slip.norm(), friction_contact.stick_threshold);
+    add_tangent_block(block.k, step.dt * step.dt * stiffness, friction_contact.friction_limit / limit,
+                      friction_contact.slip_direction);
     terms.blocks.push_back(block);
-    const Vec3 force = friction_force(touch);
-    forces.add(touch.vertex, force);
-    terms.obstacle_power += force.dot(touch.flow) * step.obstacle_rate;
+    const Vec3 force = friction_force(friction_contact);
+    forces.add(friction_contact.vertex, force);
+    terms.obstacle_power += force.dot(friction_contact.obstacle_displacement) * step.obstacle_rate;
 }
 
-/// Whether the matrix lets a rub beyond its reach slide: at the first sight if it held before or if friction at its limit cannot
-/// stop it within the step, later always.
-bool slides(const ContactRows& rows, const Rub& rub, const ContactStep& step) {
-    const double length = rub.slip.norm();
-    if (length <= rub.reach) return false;
-    if (step.previous || rub.slip != rub.moved) return true;
-    const double mass = at_contact(rows, rub.row, [&](int vertex) { return (*step.mass)[vertex]; });
-    return length * mass > step.dt * step.dt * rub.press;
+/// Whether the matrix lets a cloth-cloth friction contact beyond its stick threshold slide: at the first evaluation if it had an
+/// anchor or if friction at its limit cannot stop it within the step, later always.
+bool slides(const ContactConstraints& constraints, const ClothFrictionContact& cloth_contact, const ContactStep& step) {
+    const double length = cloth_contact.slip.norm();
+    if (length <= cloth_contact.stick_threshold) return false;
+    if (step.previous || cloth_contact.slip != cloth_contact.moved) return true;
+    const double mass = at_contact(constraints, cloth_contact.constraint, [&](int vertex) { return (*step.mass)[vertex]; });
+    return length * mass > step.dt * step.dt * cloth_contact.friction_limit;
 }
 
-/// Friction force of two cloths that a row presses together, its matrix added to the row's block.
-Vec3 friction_between_cloths(const ContactRows& rows, const Rub& rub, const ContactStep& step, CoupledBlock& block) {
-    const double length = rub.slip.norm(), stiffness = rub.press / std::max(length, rub.reach);
-    const Vec3 heading = slides(rows, rub, step) ? Vec3(rub.slip / length) : Vec3(Vec3::Zero());
-    add_tangent_block(block.k, step.dt * step.dt * stiffness, rows.direction[rub.row], heading);
-    return friction_force(rub);
+/// Friction force of a constraint between two cloths; its matrix is added to the block of the constraint.
+Vec3 friction_between_cloths(const ContactConstraints& constraints, const ClothFrictionContact& cloth_contact,
+                             const ContactStep& step, CoupledBlock& block) {
+    const double length = cloth_contact.slip.norm(),
+                 stiffness = cloth_contact.friction_limit / std::max(length, cloth_contact.stick_threshold);
+    const Vec3 slip_direction = slides(constraints, cloth_contact, step) ? Vec3(cloth_contact.slip / length) : Vec3(Vec3::Zero());
+    add_tangent_block(block.k, step.dt * step.dt * stiffness, constraints.direction[cloth_contact.constraint], slip_direction);
+    return friction_force(cloth_contact);
 }
 
-/// What a move took, and what the rows of its end, with their stiffness, would have stored at its start: their distances and the
-/// stretch of their grips, moved back with the relative velocity, J.
+/// The loss of a move, and the energy, J, that the constraints at its end would have stored at its start with their stiffness:
+/// their distances and slips are moved back with the relative velocity.
 struct PenaltyLoss {
     double friction = 0.0, integrator = 0.0, stored_at_start = 0.0;
 };
 
-/// The stiffness that a row's potential was made with, N/m: n.K n = dt^2 P'' with P'' = k, k (h/2)^2/d^2 below h/2.
+/// The stiffness of a constraint's potential, N/m: n.K n = dt^2 P'' with P'' = k, k (h/2)^2/d^2 below h/2.
 double stiffness_of(const ContactMove& move, const CoupledBlock& block) {
-    const double h = move.rows.thickness[block.row], d = move.rows.distance[block.row];
-    const double curvature = quadratic_form(block.k, move.rows.direction[block.row]) / (move.dt * move.dt);
+    const double h = move.constraints.thickness[block.constraint], d = move.constraints.distance[block.constraint];
+    const double curvature = quadratic_form(block.k, move.constraints.direction[block.constraint]) / (move.dt * move.dt);
     return d >= 0.5 * h ? curvature : 4.0 * d * d / (h * h) * curvature;
 }
 
-void add_row_loss(const ContactMove& move, const CoupledBlock& block, PenaltyLoss& loss) {
-    const std::size_t row = block.row;
-    const double h = move.rows.thickness[row], d = move.rows.distance[row], k = stiffness_of(move, block);
-    const double opened = move.rows.direction[row].dot(relative_move(move, row));
-    const double began = std::max(d - opened, std::min(d, least_start_share * h));
+void add_constraint_loss(const ContactMove& move, const CoupledBlock& block, PenaltyLoss& loss) {
+    const std::size_t constraint = block.constraint;
+    const double h = move.constraints.thickness[constraint], d = move.constraints.distance[constraint],
+                 k = stiffness_of(move, block);
+    const double opened = move.constraints.direction[constraint].dot(relative_move(move, constraint));
+    const double began = std::max(d - opened, std::min(d, min_start_ratio * h));
     const ContactPotential end = contact_potential(d, h, k), start = contact_potential(began, h, k);
     loss.stored_at_start += start.energy;
     loss.integrator += start.energy - end.energy - end.slope * opened;
 }
 
 /// 1/2 N/r e^2 up to e = r, N (e - r/2) beyond.
-double huber(double press, double reach, double stretch) {
-    return stretch <= reach ? 0.5 * press / reach * stretch * stretch : press * (stretch - 0.5 * reach);
+double huber(double friction_limit, double stick_threshold, double stretch) {
+    return stretch <= stick_threshold ? 0.5 * friction_limit / stick_threshold * stretch * stretch
+                                      : friction_limit * (stretch - 0.5 * stick_threshold);
 }
 
-/// Of a touch or a rub, of which `moved` of the slip is the move's.
+/// Adds the loss of a friction contact; `moved`: the part of the slip that belongs to the move.
 template <class Holding>
-void add_friction_loss(const Holding& holding, double press, const Vec3& moved, PenaltyLoss& loss) {
-    const double end = huber(press, holding.reach, holding.slip.norm());
-    const double start = huber(press, holding.reach, (holding.slip - moved).norm());
-    loss.friction += press * std::max(holding.slip.norm() - holding.reach, 0.0);
+void add_friction_loss(const Holding& holding, double friction_limit, const Vec3& moved, PenaltyLoss& loss) {
+    const double end = huber(friction_limit, holding.stick_threshold, holding.slip.norm());
+    const double start = huber(friction_limit, holding.stick_threshold, (holding.slip - moved).norm());
+    loss.friction += friction_limit * std::max(holding.slip.norm() - holding.stick_threshold, 0.0);
     loss.stored_at_start += start;
     loss.integrator += start - end - friction_force(holding).dot(moved);
 }
 
-void add_touch_loss(const ContactMove& move, const Touch& touch, PenaltyLoss& loss) {
-    const double press = touch.press.norm();
-    if (press == 0.0) return;
-    const Vec3 along = move.end.at(touch.vertex) - move.start.at(touch.vertex) - move.dt * move.obstacle_rate * touch.flow;
-    add_friction_loss(touch, press, tangential(along, touch.press / press), loss);
+void add_friction_contact_loss(const ContactMove& move, const FrictionContact& friction_contact, PenaltyLoss& loss) {
+    const double friction_limit = friction_contact.friction_limit.norm();
+    if (friction_limit == 0.0) return;
+    const Vec3 along = move.end.at(friction_contact.vertex) - move.start.at(friction_contact.vertex) -
+                       move.dt * move.obstacle_rate * friction_contact.obstacle_displacement;
+    add_friction_loss(friction_contact, friction_limit, tangential(along, friction_contact.friction_limit / friction_limit),
+                      loss);
 }
 
 }  // namespace
 
-void add_contact(const ContactRows& rows, const ContactStep& step, const Vectors& positions, Vectors& forces, ContactTerms& terms,
-                 std::vector<RowForce>& row_forces) {
+void add_contact(const ContactConstraints& constraints, const ContactStep& step, const Vec3Arrays& positions, Vec3Arrays& forces,
+                 ContactTerms& terms, std::vector<ConstraintForce>& constraint_forces) {
     terms.clear();
-    row_forces.clear();
-    terms.touches.clear(positions.padded_size());
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-        const double stiffness = row_stiffness(rows, row, step);
-        const ContactPotential potential = contact_potential(rows.distance[row], rows.thickness[row], stiffness);
-        row_forces.push_back({.normal = potential.slope, .stiffness = stiffness});
-        CoupledBlock block{.vertex = rows.vertex[row], .weight = rows.weight[row], .k = {}, .row = static_cast<int>(row)};
-        add_normal_block(block.k, step.dt * step.dt * potential.curvature, rows.direction[row]);
-        Vec3 force = potential.slope * rows.direction[row];
-        const bool rubs = step.friction && rows.friction[row] * potential.slope > 0.0, on_obstacle = rows.obstacle[row] >= 0;
-        if (rubs && !on_obstacle) {
-            terms.rubs.push_back(rub_of(*step.friction, rows, static_cast<int>(row), potential.slope, positions));
-            force += friction_between_cloths(rows, terms.rubs.back(), step, block);
+    constraint_forces.clear();
+    terms.friction_contacts.clear(positions.padded_size());
+    for (std::size_t constraint = 0; constraint < constraints.size(); ++constraint) {
+        const double stiffness = constraint_stiffness(constraints, constraint, step);
+        const ContactPotential potential =
+            contact_potential(constraints.distance[constraint], constraints.thickness[constraint], stiffness);
+        constraint_forces.push_back({.normal = potential.slope, .stiffness = stiffness});
+        CoupledBlock block{.vertex = constraints.vertex[constraint],
+                           .weight = constraints.weight[constraint],
+                           .k = {},
+                           .constraint = static_cast<int>(constraint)};
+        add_normal_block(block.k, step.dt * step.dt * potential.curvature, constraints.direction[constraint]);
+        Vec3 force = potential.slope * constraints.direction[constraint];
+        const bool has_friction = step.friction && constraints.friction[constraint] * potential.slope > 0.0,
+                   on_obstacle = constraints.obstacle[constraint] >= 0;
+        if (has_friction && !on_obstacle) {
+            terms.cloth_friction_contacts.push_back(
+                cloth_friction_contact(*step.friction, constraints, static_cast<int>(constraint), potential.slope, positions));
+            force += friction_between_cloths(constraints, terms.cloth_friction_contacts.back(), step, block);
         }
-        spread(rows, row, force, forces);
+        spread(constraints, constraint, force, forces);
         terms.blocks.push_back(block);
         terms.energy += potential.energy;
         terms.largest_stiffness = std::max(terms.largest_stiffness, stiffness);
-        terms.obstacle_power += force.dot(rows.obstacle_displacement[row]) * step.obstacle_rate;
-        if (rubs && on_obstacle) add_press(rows, row, potential.slope, step, terms.touches);
+        terms.obstacle_power += force.dot(constraints.obstacle_displacement[constraint]) * step.obstacle_rate;
+        if (has_friction && on_obstacle)
+            add_normal_force(constraints, constraint, potential.slope, step, terms.friction_contacts);
     }
-    for (Touch& touch : terms.touches.all) add_friction(step, positions, touch, forces, terms);
+    for (FrictionContact& friction_contact : terms.friction_contacts.all)
+        add_friction(step, positions, friction_contact, forces, terms);
 }
 
 void PenaltyContact::evaluate(const ContactPoint& point, ContactForces forces) const {
-    add_contact(point.rows, point.step, point.positions, forces.total, forces.terms, forces.row_forces);
+    add_contact(point.constraints, point.step, point.positions, forces.total, forces.terms, forces.constraint_forces);
     forces.potential += forces.terms.energy;
 }
 
-void PenaltyContact::end(const ContactRows& rows, const ContactTerms& terms, const std::vector<RowForce>& row_forces,
-                         ContactMemory& memory) {
-    set_held(rows, terms.rubs, row_forces, memory.held);
+void PenaltyContact::end(const ContactConstraints& constraints, const ContactTerms& terms,
+                         const std::vector<ConstraintForce>& constraint_forces, ContactWarmStart& warm_start) {
+    set_held(constraints, terms.cloth_friction_contacts, constraint_forces, warm_start.held);
 }
 
 ContactLoss PenaltyContact::loss(const ContactMove& move, double stored) const {
     PenaltyLoss loss;
     for (const CoupledBlock& block : move.terms.blocks) {
-        if (block.row >= 0) add_row_loss(move, block, loss);
+        if (block.constraint >= 0) add_constraint_loss(move, block, loss);
     }
-    for (const Touch& touch : move.terms.touches.all) add_touch_loss(move, touch, loss);
-    for (const Rub& rub : move.terms.rubs) add_friction_loss(rub, rub.press, rub.moved, loss);
+    for (const FrictionContact& friction_contact : move.terms.friction_contacts.all)
+        add_friction_contact_loss(move, friction_contact, loss);
+    for (const ClothFrictionContact& cloth_contact : move.terms.cloth_friction_contacts)
+        add_friction_loss(cloth_contact, cloth_contact.friction_limit, cloth_contact.moved, loss);
     return {.friction = loss.friction, .contact = stored - loss.stored_at_start, .integrator = loss.integrator};
 }
 

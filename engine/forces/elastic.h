@@ -5,15 +5,15 @@
 
 namespace percale {
 
-/// Energy of all terms that count theirs as elastic, J: springs, hinges, membranes, enclosed gas. `rest_length`:
+/// Energy of all terms that count as elastic, J: springs, hinges, membranes, enclosed gas. `rest_length`:
 /// ClothState::rest_length.
-double elastic_energy(const ClothModel& model, const Vectors& positions, std::span<const double> rest_length);
+double elastic_energy(const ClothModel& model, const Vec3Arrays& positions, std::span<const double> rest_length);
 
-/// Memory for elastic forces.
+/// Work space for elastic forces.
 struct ElasticSpace {
     StepSprings springs;
     Forces forces;
-    Vectors still;  // velocities of 0
+    Vec3Arrays still;  // velocities of 0
 };
 
 /// space.forces.total = the forces of those terms, N.
@@ -21,15 +21,15 @@ void evaluate_elastic(const Compute& compute, const ClothModel& model, const Clo
 
 /// A straight move, with the positions at which a scheme took the forces for it, m, and the springs' rest lengths there.
 struct ShapeMove {
-    const Vectors &start, &end, &positions;
+    const Vec3Arrays &start, &end, &positions;
     std::span<const double> rest_length;
 };
 
-/// Whether there are others of them than springs.
+/// Whether there are such terms besides springs.
 bool has_shapes(const ClothModel& model);
 
-/// Bregman term of the energy U of those others for the force f that the scheme took, -f . (q_end - q_start) - (U(q_end)
-/// - U(q_start)), J; 0 without such.
+/// Bregman term of the energy U of those terms for the force f that the scheme took, -f . (q_end - q_start) - (U(q_end) -
+/// U(q_start)), J; 0 if there are none.
 double shape_loss(const Compute& compute, const ClothModel& model, const ShapeMove& move, ElasticSpace& space);
 
 }  // namespace percale

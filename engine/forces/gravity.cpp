@@ -21,7 +21,7 @@ public:
 
 }  // namespace
 
-void set_gravity_forces(const Compute& compute, std::span<const double> mass, const Vec3& gravity, Vectors& forces) {
+void set_gravity_forces(const Compute& compute, std::span<const double> mass, const Vec3& gravity, Vec3Arrays& forces) {
     for_chunks(compute, forces.slices(), [&](Slices range) {
         const double gx = gravity.x(), gy = gravity.y(), gz = gravity.z();
         double *fx = forces.x.data(), *fy = forces.y.data(), *fz = forces.z.data();
@@ -34,7 +34,7 @@ void set_gravity_forces(const Compute& compute, std::span<const double> mass, co
     });
 }
 
-double gravity_energy(const Compute& compute, std::span<const double> mass, const Vec3& gravity, const Vectors& positions) {
+double gravity_energy(const Compute& compute, std::span<const double> mass, const Vec3& gravity, const Vec3Arrays& positions) {
     const double gx = gravity.x(), gy = gravity.y(), gz = gravity.z();
     const double *m = mass.data(), *x = positions.x.data(), *y = positions.y.data(), *z = positions.z.data();
     return -sum_terms(compute, 0, static_cast<int>(mass.size()),

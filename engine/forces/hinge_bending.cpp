@@ -8,7 +8,7 @@
 namespace percale {
 namespace {
 
-Vec3 bent(const Hinge& hinge, const Vectors& x) {
+Vec3 bent(const Hinge& hinge, const Vec3Arrays& x) {
     Vec3 u = Vec3::Zero();
     for (int k = 0; k < 4; ++k) {
         if (hinge.vertex[k] >= 0) u += hinge.weight[k] * x.at(hinge.vertex[k]);
@@ -20,7 +20,7 @@ Vec3 bent(const Hinge& hinge, const Vectors& x) {
 struct OpenHinge {
     Vec3 edge, first_arm, second_arm, first_normal, second_normal;
 
-    OpenHinge(const Hinge& hinge, const Vectors& x)
+    OpenHinge(const Hinge& hinge, const Vec3Arrays& x)
         : edge(x.at(hinge.vertex[1]) - x.at(hinge.vertex[0])),
           first_arm(x.at(hinge.vertex[2]) - x.at(hinge.vertex[0])),
           second_arm(x.at(hinge.vertex[3]) - x.at(hinge.vertex[0])),
@@ -28,19 +28,19 @@ struct OpenHinge {
           second_normal(second_arm.cross(edge)) {}
 
     bool has_angle() const {
-        const double least = least_hinge_sine_square * edge.squaredNorm();
-        return first_normal.squaredNorm() > least * first_arm.squaredNorm() &&
-               second_normal.squaredNorm() > least * second_arm.squaredNorm();
+        const double min = min_hinge_sine_square * edge.squaredNorm();
+        return first_normal.squaredNorm() > min * first_arm.squaredNorm() &&
+               second_normal.squaredNorm() > min * second_arm.squaredNorm();
     }
 
-    /// theta - rest angle, the short way round; 0 where a triangle has no area.
+    /// theta - rest angle, along the shorter arc; 0 where a triangle has no area.
     double opened(double rest_angle) const {
         if (!has_angle()) return 0.0;
         const double sine = first_normal.cross(second_normal).dot(edge.normalized());
         return std::remainder(std::atan2(sine, first_normal.dot(second_normal)) - rest_angle, 2.0 * std::numbers::pi);
     }
 
-    /// Gradients of theta by the four vertices: -n/h at an opposite vertex (n unit, h its height over the edge), shared out to
+    /// Gradients of theta by the four vertices: -n/h at an opposite vertex (n unit, h its height over the edge), distributed to
     /// the ends of the edge as the foot of the height divides it.
     std::array<Vec3, 4> gradient() const {
         if (!has_angle()) return {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
@@ -54,12 +54,12 @@ struct OpenHinge {
     }
 };
 
-double energy_of(const Hinge& hinge, const Vectors& x) {
+double energy_of(const Hinge& hinge, const Vec3Arrays& x) {
     const double opened = OpenHinge(hinge, x).opened(hinge.rest_angle);
     return 0.5 * hinge.clamp * hinge.stiffness * opened * opened;
 }
 
-double flat_energy(const Hinge& hinge, const Vectors& x) {
+double flat_energy(const Hinge& hinge, const Vec3Arrays& x) {
     return 0.5 * hinge.clamp * hinge.stiffness * bent(hinge, x).squaredNorm();
 }
 
@@ -97,14 +97,14 @@ const ForceTerm& hinge_term() {
     return term;
 }
 
-double hinge_energy(const Hinges& hinges, const Vectors& positions) {
+double hinge_energy(const Hinges& hinges, const Vec3Arrays& positions) {
     return sum_terms(0, static_cast<int>(hinges.all.size()), [&](int k) {
         const Hinge& hinge = hinges.all[k];
         return hinge.rest_angle == 0.0 ? flat_energy(hinge, positions) : energy_of(hinge, positions);
     });
 }
 
-double add_curved_hinges(const Hinges& hinges, const Vectors& positions, Vectors& forces) {
+double add_curved_hinges(const Hinges& hinges, const Vec3Arrays& positions, Vec3Arrays& forces) {
     double change = 0.0;
     for (const int index : hinges.curved) {
         const Hinge& hinge = hinges.all[index];

@@ -2,19 +2,19 @@
 
 #include "force_term.h"
 #include "model/hinges.h"
-#include "model/vectors.h"
+#include "model/vec3_arrays.h"
 
 namespace percale {
 
 /// Energy of all hinges, J: 1/2 c |u|^2 of flat ones, 1/2 c (theta - rest angle)^2 of curved ones.
-double hinge_energy(const Hinges& hinges, const Vectors& positions);
+double hinge_energy(const Hinges& hinges, const Vec3Arrays& positions);
 
-/// Pairs (network.bending) make every hinge a flat one. Turns the curved ones into such with a rest angle: forces, N, += what
-/// that changes; returns the change of their energy, J. Their matrix stays that of flat ones, c w w^T, which is positive
-/// definite and exact for motion along the normals of a shape whose rest angles are small.
-double add_curved_hinges(const Hinges& hinges, const Vectors& positions, Vectors& forces);
+/// Pairs (network.bending) make every hinge a flat one. This adds the difference to hinges with a rest angle for the curved
+/// ones: forces, N, += the difference; returns the change of their energy, J. Their matrix stays that of flat ones, c w w^T,
+/// which is positive definite and exact for motion along the normals of a shape whose rest angles are small.
+double add_curved_hinges(const Hinges& hinges, const Vec3Arrays& positions, Vec3Arrays& forces);
 
-/// Their flat part is among the springs (SpringNetwork::bending).
+/// The springs hold the flat part of hinges (SpringNetwork::bending).
 const ForceTerm& hinge_term();
 
 }  // namespace percale

@@ -14,14 +14,14 @@ public:
     double StepEnergy::*entry() const override { return &StepEnergy::elastic; }
     double energy(const StoredInput& input) const override { return membrane_energy(input.model.membrane, input.positions); }
 
-    /// The springs of the edges are nothing.
+    /// Sets the forces of the edges' springs to zero.
     void stand_alone(const ForceInput& input, Forces& forces) const override {
         const Adjacency& adjacency = input.model->adjacency;
         pack_points(*input.compute, adjacency, *input.positions, forces.spring_terms.points);
         if (input.with_matrix) forces.spring_terms.values.assign(adjacency.value_count(), 0.0f);
     }
 
-    /// Edges that push are clamped in the matrix.
+    /// Edges that push are clamped to zero in the matrix.
     void mark_inexact(const ForceInput& input, const Forces& forces, double, std::vector<bool>& exact) const override {
         const SpringNetwork& network = input.model->springs;
         for (int k = 0; k < network.size(); ++k) {
@@ -55,7 +55,7 @@ const ForceTerm& membrane_term() {
 }
 
 double evaluate_membrane(const Compute& compute, const Adjacency& adjacency, const SpringMotion& motion, bool with_matrix,
-                         Vectors& forces, SpringTerms& terms) {
+                         Vec3Arrays& forces, SpringTerms& terms) {
     const MembraneEntries& membrane = adjacency.membrane;
     const MembranePass pass{.pattern = adjacency.pattern(),
                             .edges = membrane.edges(),
@@ -77,7 +77,7 @@ double evaluate_membrane(const Compute& compute, const Adjacency& adjacency, con
     return energy;
 }
 
-double membrane_energy(const std::vector<MembraneTriangle>& triangles, const Vectors& positions) {
+double membrane_energy(const std::vector<MembraneTriangle>& triangles, const Vec3Arrays& positions) {
     return 0.5 * sum_terms(0, static_cast<int>(triangles.size()), [&](int k) {
                const MembraneTriangle& t = triangles[k];
                Vec3 s;

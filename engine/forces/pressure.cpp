@@ -23,15 +23,16 @@ public:
         double energy = 0.0;
         for (const ClothRange& cloth : input.model->cloths) {
             if (!is_filled(cloth.fabric)) continue;
-            if (count == forces.enclosed.size()) forces.enclosed.emplace_back();  // kept from one evaluation to the next
-            EnclosedBlock& block = forces.enclosed[count++];
-            const Filling filling = filling_at(cloth.fabric, volume_of(*input.model, cloth, *input.positions));
+            if (count == forces.pressure_blocks.size())
+                forces.pressure_blocks.emplace_back();  // kept from one evaluation to the next
+            PressureBlock& block = forces.pressure_blocks[count++];
+            const GasState gas_state = gas_state_at(cloth.fabric, volume_of(*input.model, cloth, *input.positions));
             set_volume_gradient(*input.model, cloth, *input.positions, block.gradient);
-            block.stiffness = input.dt * input.dt * filling.stiffness;
-            block.load = input.dt * input.dt * filling.pressure;
+            block.stiffness = input.dt * input.dt * gas_state.stiffness;
+            block.load = input.dt * input.dt * gas_state.pressure;
             block.triangles = triangles_of(*input.model, cloth);
-            add_scaled(forces.total, filling.pressure, block.gradient);
-            energy += filling.energy;
+            add_scaled(forces.total, gas_state.pressure, block.gradient);
+            energy += gas_state.energy;
         }
         return energy;
     }
@@ -41,7 +42,7 @@ public:
         double energy = 0.0;
         for (const ClothRange& cloth : input.model.cloths) {
             if (is_filled(cloth.fabric))
-                energy += filling_at(cloth.fabric, volume_of(input.model, cloth, input.positions)).energy;
+                energy += gas_state_at(cloth.fabric, volume_of(input.model, cloth, input.positions)).energy;
         }
         return energy;
     }
@@ -67,8 +68,8 @@ public:
 
 }  // namespace
 
-double volume_of(const ClothModel& model, const ClothRange& cloth, const Vectors& positions) {
-    const Vec3 origin = positions.at(cloth.first);  // near the cloth, so that less is rounded
+double volume_of(const ClothModel& model, const ClothRange& cloth, const Vec3Arrays& positions) {
+    const Vec3 origin = positions.at(cloth.first);  // near the cloth, for less rounding
     const std::span<const Triangle> triangles = triangles_of(model, cloth);
     return sum_terms(0, static_cast<int>(triangles.size()), [&](int t) {
         const auto& [i, j, k] = triangles[t];
@@ -76,7 +77,7 @@ double volume_of(const ClothModel& model, const ClothRange& cloth, const Vectors
     });
 }
 
-void set_volume_gradient(const ClothModel& model, const ClothRange& cloth, const Vectors& positions, Vectors& gradient) {
+void set_volume_gradient(const ClothModel& model, const ClothRange& cloth, const Vec3Arrays& positions, Vec3Arrays& gradient) {
     gradient.resize(static_cast<int>(positions.padded_size()));
     for (const auto& [i, j, k] : triangles_of(model, cloth)) {
         const Vec3 third = (positions.at(j) - positions.at(i)).cross(positions.at(k) - positions.at(i)) / 6.0;
@@ -84,7 +85,7 @@ void set_volume_gradient(const ClothModel& model, const ClothRange& cloth, const
     }
 }
 
-Filling filling_at(const Fabric& fabric, double volume) {
+GasState gas_state_at(const Fabric& fabric, double volume) {
     if (fabric.pressure) return {*fabric.pressure, -*fabric.pressure * volume, 0.0};
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     if (!(volume > 0.0)) return {none, std::numeric_limits<double>::infinity(), none};

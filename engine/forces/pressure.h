@@ -6,13 +6,13 @@ namespace percale {
 
 /// The volume inside a closed cloth by the divergence theorem, m^3: the sum over its triangles (a, b, c) of a . (b x c)/6,
 /// positive where they are counter-clockwise seen from outside.
-double volume_of(const ClothModel& model, const ClothRange& cloth, const Vectors& positions);
+double volume_of(const ClothModel& model, const ClothRange& cloth, const Vec3Arrays& positions);
 
 /// gradient = dV/dx, m^2: (b - a) x (c - a)/6 at each corner of a triangle, 0 at the vertices of other cloth.
-void set_volume_gradient(const ClothModel& model, const ClothRange& cloth, const Vectors& positions, Vectors& gradient);
+void set_volume_gradient(const ClothModel& model, const ClothRange& cloth, const Vec3Arrays& positions, Vec3Arrays& gradient);
 
-/// What fills a closed cloth at a volume V.
-struct Filling {
+/// The gas inside a closed cloth at a volume V.
+struct GasState {
     double pressure;   // Pa, p = -dU/dV, above the air outside
     double energy;     // J, U
     double stiffness;  // Pa/m^3, d^2U/dV^2
@@ -20,10 +20,10 @@ struct Filling {
 /// Fabric::pressure, a given difference: U = -p V. Fabric::gas_volume, an amount of gas that takes up V_0 at the pressure p_0 of
 /// the air, at a steady temperature (Boyle's law): p = p_0 (V_0/V - 1), U = p_0 V_0 (d - ln(1 + d)) with d = V/V_0 - 1, infinite,
 /// and p not a number, where V <= 0.
-Filling filling_at(const Fabric& fabric, double volume);
+GasState gas_state_at(const Fabric& fabric, double volume);
 
-/// Pushes each vertex by p dV/dx. All of its derivative is in the matrix: without p d^2V/dx^2, which takes off what the cloth's
-/// tension adds, that would resist the turning of a ball.
+/// Pushes each vertex by p dV/dx. The matrix has all of its derivative: without p d^2V/dx^2, which cancels a part of the cloth's
+/// tension, a ball would resist rotation.
 const ForceTerm& pressure_term();
 
 }  // namespace percale

@@ -63,7 +63,7 @@ public:
     double StepEnergy::*entry() const override { return &StepEnergy::elastic; }
     double energy(const StoredInput& input) const override { return weld_energy(input.model.welds, input.positions); }
 
-    bool is_internal() const override { return false; }  // a gap that is not closed yet may turn the cloth
+    bool is_internal() const override { return false; }  // an open gap may turn the cloth
     bool is_in_matrix() const override { return false; }
 
     void identify(const ClothModel& model, ListHash& hash) const override {

@@ -4,9 +4,9 @@
 
 namespace percale {
 
-/// Vertices sewn to points (SewnPoint). What draws u to nothing is among the springs (SpringNetwork::bending); the term itself is
-/// what holds u at its length while the seam closes: the load k l w d on each vertex, w its weight in u. That has a direction of
-/// its own in space, so that a closing point may turn the cloth.
+/// Vertices sewn to points (SewnPoint). The force that draws u to zero is among the springs (SpringNetwork::bending); the term
+/// itself holds u at its length while the seam closes: the load k l w d on each vertex, w its weight in u. That load has a fixed
+/// direction in space, so that a closing point may turn the cloth.
 const ForceTerm& sewing_term();
 
 /// Forces of welded stitches (model/weld.h). They do not change within a step, so the matrix has no part of them: the stiffness

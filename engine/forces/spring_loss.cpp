@@ -6,13 +6,13 @@
 namespace percale {
 namespace {
 
-Vec3 between(const SpringNetwork& network, const Vectors& x, int spring) {
+Vec3 between(const SpringNetwork& network, const Vec3Arrays& x, int spring) {
     return x.at(network.first[spring]) - x.at(network.second[spring]);
 }
 
 Vec3 direction(const Vec3& x) {
     const double length = x.norm();
-    return length < least_spring_length ? Vec3(Vec3::Zero()) : Vec3(x / length);
+    return length < min_spring_length ? Vec3(Vec3::Zero()) : Vec3(x / length);
 }
 
 }  // namespace

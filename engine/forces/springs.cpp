@@ -10,15 +10,15 @@
 namespace percale {
 namespace {
 
-double square_length(const SpringNetwork& network, const Vectors& x, int k) {
+double square_length(const SpringNetwork& network, const Vec3Arrays& x, int k) {
     const int i = network.first[k], j = network.second[k];
     const double dx = x.x[i] - x.x[j], dy = x.y[i] - x.y[j], dz = x.z[i] - x.z[j];
     return dx * dx + dy * dy + dz * dz;
 }
 
-double length(const SpringNetwork& network, const Vectors& x, int k) { return std::sqrt(square_length(network, x, k)); }
+double length(const SpringNetwork& network, const Vec3Arrays& x, int k) { return std::sqrt(square_length(network, x, k)); }
 
-/// The first structural spring from number k on; how many springs there are where none is. Other kinds come in long rows.
+/// The first structural spring from number k on; the number of springs if there is none. Other kinds come in long runs.
 int next_structural(const SpringNetwork& network, int k) {
     static_assert(sizeof(SpringKind) == 1);
     if (k < network.size() && network.kind[k] == SpringKind::structural) return k;
@@ -27,7 +27,7 @@ int next_structural(const SpringNetwork& network, int k) {
     return found ? static_cast<int>(static_cast<const SpringKind*>(found) - kinds) : network.size();
 }
 
-/// A copy of all rest lengths with those of seams replaced: the model's stay as they are.
+/// Copies all rest lengths and replaces those of seams: the model's stay as they are.
 void set_seam_lengths(const SpringStart& start, StepSprings& springs) {
     const SpringNetwork& network = *start.network;
     springs.seam_rest_length = start.adjacency.rest_length;
@@ -45,7 +45,7 @@ void clear_guards(const BandPattern& bands, AlignedVector<float>& values) {
     }
 }
 
-/// What springs of a cloth there are not, and why.
+/// Adds the kinds of springs that a cloth lacks, and why.
 void add_skips_of(const ClothFacts& cloth, std::vector<Skip>& skipped) {
     const SpringConstants& springs = cloth.fabric.springs;
     if (cloth.fabric.has_moduli()) {
@@ -73,7 +73,7 @@ public:
         return elastic_energy(input.model.springs, input.positions, input.rest_length);
     }
 
-    /// Compressed ones are clamped in the matrix.
+    /// Compressed springs are clamped to zero in the matrix.
     void mark_inexact(const ForceInput& input, const Forces&, double, std::vector<bool>& exact) const override {
         const SpringNetwork& network = input.model->springs;
         for (int k = 0; k < network.size(); ++k) {
@@ -131,7 +131,7 @@ void set_step_springs(const Compute& compute, const SpringStart& start, StepSpri
 }
 
 double evaluate_springs(const Compute& compute, const StepSprings& springs, const SpringMotion& motion, bool with_matrix,
-                        Vectors& forces, SpringTerms& terms) {
+                        Vec3Arrays& forces, SpringTerms& terms) {
     const Adjacency& adjacency = *springs.adjacency;
     pack_points(compute, adjacency, motion.positions, terms.points);
     if (springs.velocity_damping) pack_points(compute, adjacency, motion.velocities, terms.motion);
@@ -164,7 +164,7 @@ SpringBlock spring_block(const Adjacency& adjacency, const SpringTerms& terms, i
     return {value[0], Vec3(value[apart], value[2 * apart], value[3 * apart])};
 }
 
-double elastic_energy(const SpringNetwork& network, const Vectors& positions, std::span<const double> rest_length) {
+double elastic_energy(const SpringNetwork& network, const Vec3Arrays& positions, std::span<const double> rest_length) {
     const std::span<const double> rest = rest_lengths(network, rest_length);
     return 0.5 * sum_terms(0, network.size(), [&](int k) {
                const double stretch = length(network, positions, k) - rest[k];
@@ -172,12 +172,12 @@ double elastic_energy(const SpringNetwork& network, const Vectors& positions, st
            });
 }
 
-double largest_strain(const SpringNetwork& network, const Vectors& positions) {
+double largest_strain(const SpringNetwork& network, const Vec3Arrays& positions) {
     return largest_strain(network, positions, 0, std::numeric_limits<int>::max());
 }
 
-double largest_strain(const SpringNetwork& network, const Vectors& positions, int first, int count) {
-    // Most springs are told by their squares, the rounding of which is allowed for, not to be the largest.
+double largest_strain(const SpringNetwork& network, const Vec3Arrays& positions, int first, int count) {
+    // The squares of most springs, with an allowance for rounding, show that they are not the largest.
     double largest = 0.0, square_below = strain_rounding;
     for (int k = next_structural(network, 0); k < network.size(); k = next_structural(network, k + 1)) {
         const double rest = network.rest_length[k], square = square_length(network, positions, k);

@@ -21,7 +21,7 @@ public:
         return limit_energy(input.model.limits, input.model.springs, input.positions);
     }
 
-    /// Springs are nothing.
+    /// Sets the forces of springs to zero.
     void stand_alone(const ForceInput& input, Forces& forces) const override {
         const Adjacency& adjacency = input.model->adjacency;
         pack_points(*input.compute, adjacency, *input.positions, forces.spring_terms.points);
@@ -29,7 +29,7 @@ public:
     }
 
     bool may_be_below() const override { return true; }
-    /// Edges about to pull, or to pull no longer, have a kink.
+    /// Edges about to pull, or about to stop pulling, have a kink.
     void mark_inexact(const ForceInput& input, const Forces&, double reach, std::vector<bool>& exact) const override {
         const SpringNetwork& network = input.model->springs;
         for (const LimitedEdge& edge : input.model->limits.edges) {
@@ -43,7 +43,7 @@ public:
     void identify(const ClothModel& model, ListHash& hash) const override {
         for (const LimitedEdge& edge : model.limits.edges) {
             hash.add(edge.spring);
-            for (const double number : {edge.length, edge.stiffness, edge.most_hold}) hash.add(number);
+            for (const double number : {edge.length, edge.stiffness, edge.max_hold}) hash.add(number);
         }
     }
 
@@ -62,7 +62,7 @@ const ForceTerm& strain_limit_term() {
 }
 
 double evaluate_limits(const Compute& compute, const ClothModel& model, const SpringMotion& motion, bool with_matrix,
-                       Vectors& forces, SpringTerms& terms) {
+                       Vec3Arrays& forces, SpringTerms& terms) {
     const LimitPass pass{.pattern = model.adjacency.pattern(),
                          .limits = model.limits.entries(),
                          .positions = motion.positions.axes(),

@@ -15,12 +15,12 @@ std::array<double, 3> corner_shares(const ClothRange& cloth, const Triangle& t) 
     if (!cloth.grid) return {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
     const auto column = [&](int k) { return (t[k] - cloth.first) % cloth.columns; };
     const auto row = [&](int k) { return (t[k] - cloth.first) / cloth.columns; };
-    std::array<double, 3> shares = {0.25, 0.25, 0.25};
+    std::array<double, 3> weights = {0.25, 0.25, 0.25};
     for (int k = 0; k < 3; ++k) {
         const int a = (k + 1) % 3, b = (k + 2) % 3;
-        if (column(a) != column(b) && row(a) != row(b)) shares[k] = 0.5;
+        if (column(a) != column(b) && row(a) != row(b)) weights[k] = 0.5;
     }
-    return shares;
+    return weights;
 }
 
 /// Drag on a corner: force, minus its derivative by the velocity, and the potential of which it is minus the derivative.
@@ -49,13 +49,13 @@ CornerDrag corner_drag(const Vec3& n, const Vec3& u, double normal_factor, doubl
 /// Adds the drag of one cloth.
 class ClothDrag {
 public:
-    ClothDrag(const ClothRange& cloth, const StepWind& wind, const Vectors& velocities, double dt)
+    ClothDrag(const ClothRange& cloth, const StepWind& wind, const Vec3Arrays& velocities, double dt)
         : cloth_(cloth), wind_(wind), velocities_(velocities), dt_(dt) {}
 
-    void add(const Triangle& t, const WindTriangle& placed, Vectors& forces, WindTerms& terms) const {
-        const std::array<double, 3> shares = corner_shares(cloth_, t);
+    void add(const Triangle& t, const WindTriangle& placed, Vec3Arrays& forces, WindTerms& terms) const {
+        const std::array<double, 3> weights = corner_shares(cloth_, t);
         for (int k = 0; k < 3; ++k) {
-            const double factor = 0.5 * wind_.density * placed.area * shares[k];
+            const double factor = 0.5 * wind_.density * placed.area * weights[k];
             const Vec3 v = velocities_.at(t[k]);
             const CornerDrag drag = corner_drag(placed.normal, v - wind_.velocity, factor * cloth_.fabric.drag_normal,
                                                 factor * cloth_.fabric.drag_tangential);
@@ -69,7 +69,7 @@ public:
 private:
     const ClothRange& cloth_;
     const StepWind& wind_;
-    const Vectors& velocities_;
+    const Vec3Arrays& velocities_;
     double dt_;
 };
 
@@ -109,7 +109,7 @@ const ForceTerm& wind_term() {
     return term;
 }
 
-void set_step_wind(const ClothModel& model, const Vec3& velocity, double density, const Vectors& positions, StepWind& wind) {
+void set_step_wind(const ClothModel& model, const Vec3& velocity, double density, const Vec3Arrays& positions, StepWind& wind) {
     wind.blows = true;
     wind.velocity = velocity;
     wind.density = density;
@@ -122,7 +122,7 @@ void set_step_wind(const ClothModel& model, const Vec3& velocity, double density
     }
 }
 
-void add_wind(const ClothModel& model, const StepWind& wind, const Vectors& velocities, double dt, Vectors& forces,
+void add_wind(const ClothModel& model, const StepWind& wind, const Vec3Arrays& velocities, double dt, Vec3Arrays& forces,
               WindTerms& terms) {
     terms.power = terms.potential = 0.0;
     terms.blocks.assign(model.mass.size(), SymmetricBlock{});

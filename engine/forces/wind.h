@@ -5,15 +5,15 @@
 
 namespace percale {
 
-/// Takes the triangles as they lie now.
-void set_step_wind(const ClothModel& model, const Vec3& velocity, double density, const Vectors& positions, StepWind& wind);
+/// Stores the triangles as they lie now.
+void set_step_wind(const ClothModel& model, const Vec3& velocity, double density, const Vec3Arrays& positions, StepWind& wind);
 
 /// Drag of a surface that moves with u against the air, u = u_n n + u_t:
 ///     f = -1/2 rho A (C_n |u_n| u_n n + C_t |u_t| u_t),
-/// at each corner with the corner's velocity and its share of the area (that of its mass). With A and n kept through the step it
+/// at each corner with the corner's velocity and its part of the area (that of its mass). With A and n kept through the step it
 /// is -d/dv of 1/6 rho A (C_n |u_n|^3 + C_t |u_t|^3), which is convex: -Jv is positive semidefinite and backward Euler's
 /// incremental potential stays one. forces += f, N.
-void add_wind(const ClothModel& model, const StepWind& wind, const Vectors& velocities, double dt, Vectors& forces,
+void add_wind(const ClothModel& model, const StepWind& wind, const Vec3Arrays& velocities, double dt, Vec3Arrays& forces,
               WindTerms& terms);
 
 const ForceTerm& wind_term();

@@ -1,5 +1,5 @@
-// Springs whose ends are a fixed number of vertices apart, as on a grid: everything is read and written in order, and each spring
-// is evaluated once.
+// Springs whose ends are a fixed number of vertices apart, as on a grid: all memory is read and written in order, and each
+// spring is evaluated once.
 
 /// x y z of a copy with room before and behind (BandPattern).
 struct GuardedDoubles {
@@ -95,7 +95,7 @@ PERCALE_INLINE WidePack band_places(const SpringPass& pass, std::ptrdiff_t i, do
     return energy;
 }
 
-/// forces(i) += sum over bands of what the springs beginning at i - offset exert less what those beginning at i exert.
+/// forces(i) += sum over bands of the forces of the springs beginning at i - offset less those of the springs beginning at i.
 PERCALE_INLINE void sum_bands(const SpringPass& pass, std::ptrdiff_t i, const double* scratch, std::size_t row) {
     const BandPattern& bands = *pass.springs.pattern.bands;
     WidePoint force = load_wide(pass.forces, i);

@@ -1,4 +1,4 @@
-// Compiled once for every instruction set, with its compiler flags: PERCALE_PACK_BYTES and PERCALE_KERNEL_SET say which.
+// Compiled once for every instruction set, with its compiler flags: PERCALE_PACK_BYTES and PERCALE_KERNEL_SET name it.
 // Everything but the table has internal linkage, so that no code of a wider set can reach a narrower machine.
 #include "kernel_table.h"
 

@@ -32,9 +32,9 @@ struct Axes {
 /// i and i + offset; its numbers stand at band * padded + i. Positions and the like are then not packed as points but copied to
 /// three arrays of guard + padded + guard numbers, zero outside; blocks stand at 4 arrays a band of guard + padded numbers each.
 struct BandPattern {
-    static constexpr int most = 8;
+    static constexpr int max = 8;
     int count = 0;
-    int offset[most] = {};  // > 0
+    int offset[max] = {};  // > 0
     std::size_t padded = 0, guard = 0;
 };
 
@@ -81,8 +81,8 @@ struct BlockPass {
     const double* ground;  // D, one number a vertex
 };
 
-/// Vectors of floats: x, y, z one after the other, `padded` apart.
-struct FloatVectors {
+/// Vec3 arrays of floats: x, y, z one after the other, `padded` apart.
+struct FloatVec3Arrays {
     float* data;
     std::size_t padded;
 };
@@ -93,7 +93,7 @@ struct FloatPass {
     EntryPattern pattern;
     const float* values;
     const float* ground;
-    FloatVectors x, y;
+    FloatVec3Arrays x, y;
     const float* points;  // x as x y z 0 a vertex
     const float* right;   // b, or null
 };
@@ -101,7 +101,7 @@ struct FloatPass {
 /// x += factor D^-1 r, or x = factor D^-1 r with `fresh`.
 struct SmoothPass {
     const float* inverse;  // six arrays, `padded` apart
-    FloatVectors r, x;
+    FloatVec3Arrays r, x;
     float factor;
     bool fresh;
 };
@@ -111,7 +111,7 @@ struct TransferPass {
     EntryPattern pattern;
     const float* weights;
     const float* points;  // x as x y z 0 a vertex
-    FloatVectors y;
+    FloatVec3Arrays y;
     bool add;
 };
 
@@ -134,9 +134,9 @@ struct GalerkinPass {
     float* coarse;
 };
 
-/// The edges of membrane triangles, at the entries of their springs. With the length l of an edge and those of the edges from its
-/// two ends to the vertex opposite in each of its (at most two) triangles, near_k from the own vertex and far_k from the other:
-/// half its pull is t/2 = n1 l^2 + (n2 near_0^2 + n3 far_0^2) + (n4 near_1^2 + n5 far_1^2) - n6, and s = l^2 - n0.
+/// The edges of membrane triangles, at the entries of their springs. With the length l of an edge and those of the edges from
+/// its two ends to the vertex opposite in each of its (at most two) triangles, near_k from the own vertex and far_k from the
+/// other: half its pull is t/2 = n1 l^2 + (n2 near_0^2 + n3 far_0^2) + (n4 near_1^2 + n5 far_1^2) - n6, and s = l^2 - n0.
 struct MembraneEdges {
     const int* opposite[2];
     const double* numbers[7];  // n0 m^2, n1 ... n5 N/m^3, n6 N/m
@@ -161,8 +161,8 @@ struct MembranePass {
     float* values;         // SpringPass::values, added to; null without matrix
 };
 
-/// Edges that hold back beyond a length, at the entries of their springs: T = max(0, h + k (l - L)). No edge shorter than the
-/// root of `slack_square` pulls; the largest number where nothing is limited.
+/// Edges that resist beyond a length, at the entries of their springs: T = max(0, h + k (l - L)). No edge shorter than the root
+/// of `slack_square` pulls; that is the largest number where nothing is limited.
 struct LimitEntries {
     const double *slack_square, *length, *stiffness, *hold;  // m^2, L m, k N/m, h N
 };
@@ -178,7 +178,7 @@ struct LimitPass {
     float* values;         // SpringPass::values, added to; null without matrix
 };
 
-/// Floats a corner.
+/// Number of floats a corner.
 constexpr int corner_values = 12;
 
 /// p, q, r in m, then 4 dt^2 times the coupling: corner_values floats, slice_lanes each, for every slice_lanes corners.
@@ -196,7 +196,7 @@ struct CornerProduct {
     const float* values;
 };
 
-/// A product in double precision that is to be added to y at free vertices.
+/// A product in double precision that is added to y at free vertices.
 struct WideProduct {
     ConstAxes x;
     const double* points;  // x as x y z 0 a vertex
@@ -204,7 +204,7 @@ struct WideProduct {
     Axes y;
 };
 
-/// Diagonal blocks to be added to, and their inverses; six arrays each.
+/// Diagonal blocks that receive sums, and their inverses; six arrays each.
 struct DiagonalSums {
     double* diagonal;
     float* inverse;
@@ -215,7 +215,7 @@ struct DiagonalSums {
 struct Kernels {
     InstructionSet set;
     void (*pack_points)(ConstAxes from, double* points, Slices range);
-    void (*pack_float_points)(FloatVectors from, float* points, Slices range);
+    void (*pack_float_points)(FloatVec3Arrays from, float* points, Slices range);
     void (*start_springs)(const StartPass& pass, Slices range);
     double (*springs)(const SpringPass& pass, Slices range);  // returns their energy, J
     /// y = A x, 0 at prescribed vertices (`free` = 0); returns x . y.
@@ -224,11 +224,12 @@ struct Kernels {
     double (*advance)(double alpha, ConstAxes p, ConstAxes q, Axes x, Axes r, Slices range);  // x += alpha p, r -= alpha q; r . r
     void (*turn)(double beta, ConstAxes z, Axes p, Slices range);                             // p = z + beta p
     void (*jacobi)(const float* inverse, std::size_t padded, ConstAxes r, Axes z, Slices range);  // z = D^-1 r
-    void (*to_float)(double scale, ConstAxes from, FloatVectors to, Slices range);
-    void (*add_float)(double scale, FloatVectors from, Axes to, Slices range);  // to += scale * from
-    double (*float_dot)(FloatVectors a, FloatVectors b, Slices range);
-    double (*float_advance)(float alpha, FloatVectors p, FloatVectors q, FloatVectors x, FloatVectors r, Slices range);
-    void (*float_turn)(float beta, FloatVectors z, FloatVectors p, Slices range);
+    void (*to_float)(double scale, ConstAxes from, FloatVec3Arrays to, Slices range);
+    void (*add_float)(double scale, FloatVec3Arrays from, Axes to, Slices range);  // to += scale * from
+    double (*float_dot)(FloatVec3Arrays a, FloatVec3Arrays b, Slices range);
+    double (*float_advance)(float alpha, FloatVec3Arrays p, FloatVec3Arrays q, FloatVec3Arrays x, FloatVec3Arrays r,
+                            Slices range);
+    void (*float_turn)(float beta, FloatVec3Arrays z, FloatVec3Arrays p, Slices range);
     void (*multiply_fine)(const FloatPass& pass, Slices range);    // 4 numbers an entry
     void (*multiply_coarse)(const FloatPass& pass, Slices range);  // 6 numbers an entry
     void (*smooth)(const SmoothPass& pass, Slices range);
@@ -239,7 +240,8 @@ struct Kernels {
     double (*membrane)(const MembranePass& pass, Slices range);  // returns their energy, J
     double (*limits)(const LimitPass& pass, Slices range);       // returns their energy, J
     void (*fill_corners)(const CornerFillPass& pass, Slices range);
-    double (*multiply_corners)(const CornerProduct& pass, const WideProduct& product, Slices range);  // returns what x . y gains
+    double (*multiply_corners)(const CornerProduct& pass, const WideProduct& product,
+                               Slices range);  // returns the increase of x . y
     void (*multiply_float_corners)(const CornerProduct& pass, const FloatPass& product, Slices range);
     void (*corner_diagonal)(const CornerProduct& pass, const DiagonalSums& sums, Slices range);
     void (*invert)(double* matrix, int size, int stride);  // symmetric positive definite, in place

@@ -1,14 +1,14 @@
-// Edges that hold back beyond a length. Few do: a pack of vertices is evaluated only where some edge of theirs is that long.
+// Edges that resist beyond a length. Few pull: a pack of vertices is evaluated only where some edge of theirs is that long.
 
 /// Whether any edge of a pack of vertices, whose first entries stand at `first`, pulls.
 PERCALE_INLINE bool any_pulls(const LimitPass& pass, WidePoint own, int first, int last) {
-    WidePack most = all_wide(-1.0);
+    WidePack max = all_wide(-1.0);
     for (int e = first; e < last; e += slice_lanes) {
         const WidePoint x = own - gather_wide(pass.points, pass.pattern.other + e);
-        most = larger(most, dot(x, x) - load_wide(pass.limits.slack_square + e));
+        max = larger(max, dot(x, x) - load_wide(pass.limits.slack_square + e));
     }
     double excess[float_lanes];
-    store_wide(excess, most);
+    store_wide(excess, max);
     bool any = false;
     for (const double one : excess) any = any || one > 0.0;
     return any;
@@ -22,7 +22,7 @@ PERCALE_INLINE void add_limit_block(float* value, double dt, WidePoint x, WidePa
     const WidePack gain = where_less(none, pull, larger(scale * (stiffness - pull), none), none);
     const WidePack along = root((dot(w, w) + gain) / square);
     store(value, load<FloatPack>(value) + narrow(scale * pull));
-    // Of edges that do not pull not a bit changes: which others share their pack is up to the instruction set.
+    // Edges that do not pull keep every bit: which others share their pack depends on the instruction set.
     store(value + slice_lanes, narrow(where_less(none, pull, along * x.x, w.x)));
     store(value + 2 * slice_lanes, narrow(where_less(none, pull, along * x.y, w.y)));
     store(value + 3 * slice_lanes, narrow(where_less(none, pull, along * x.z, w.z)));
@@ -30,7 +30,7 @@ PERCALE_INLINE void add_limit_block(float* value, double dt, WidePoint x, WidePa
 
 template <bool with_matrix>
 PERCALE_INLINE double limit_slices(const LimitPass& pass, Slices range) {
-    const WidePack none = all_wide(0.0), quarter = all_wide(0.25), least_stiffness = all_wide(1e-30);
+    const WidePack none = all_wide(0.0), quarter = all_wide(0.25), min_stiffness = all_wide(1e-30);
     LaneSums energy;
     for (int s = range.first; s < range.last; ++s) {
         for (int lane = 0; lane < slice_lanes; lane += float_lanes) {
@@ -46,7 +46,7 @@ PERCALE_INLINE double limit_slices(const LimitPass& pass, Slices range) {
                 const WidePack excess = length - load_wide(pass.limits.length + e);
                 const WidePack tension = larger(load_wide(pass.limits.hold + e) + stiffness * excess, none);
                 const WidePack pull = tension / length;
-                twice = twice + tension * tension / larger(stiffness, least_stiffness);
+                twice = twice + tension * tension / larger(stiffness, min_stiffness);
                 force = force - pull * x;
                 if constexpr (with_matrix) {
                     float* value = pass.values + 4 * static_cast<std::size_t>(e - lane) + lane;

@@ -1,5 +1,5 @@
-// Triangles of membranes: forces edge by edge, each evaluated from both of its ends with the same bits; what couples the edges of
-// a triangle in the matrix from each of its vertices.
+// Triangles of membranes: forces edge by edge, each evaluated from both of its ends with the same bits; couplings between the
+// edges of a triangle in the matrix from each of its vertices.
 
 /// The edges at one pack of entries.
 struct EdgeState {

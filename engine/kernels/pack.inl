@@ -1,4 +1,4 @@
-// Packs: what a vector register of PERCALE_PACK_BYTES bytes holds. Included by kernel_table.cpp only, inside an unnamed
+// Packs: the contents of a vector register of PERCALE_PACK_BYTES bytes. Included by kernel_table.cpp only, inside an unnamed
 // namespace: the same functions are compiled once per instruction set and must not be merged by the linker. For that reason
 // nothing of the standard library is called here.
 
@@ -51,7 +51,7 @@ PERCALE_INLINE WidePack larger(WidePack a, WidePack b) {
 PERCALE_INLINE WidePack smaller(WidePack a, WidePack b) {
     return {a.low < b.low ? a.low : b.low, a.high < b.high ? a.high : b.high};
 }
-/// Where a < b: yes, elsewhere: no.
+/// `yes` where a < b, `no` elsewhere.
 PERCALE_INLINE WidePack where_less(WidePack a, WidePack b, WidePack yes, WidePack no) {
     return {a.low < b.low ? yes.low : no.low, a.high < b.high ? yes.high : no.high};
 }
@@ -247,11 +247,11 @@ PERCALE_INLINE void store_wide(Axes to, std::size_t at, WidePoint p) {
     store_wide(to.y + at, p.y);
     store_wide(to.z + at, p.z);
 }
-PERCALE_INLINE FloatPoint load_float(FloatVectors from, std::size_t at) {
+PERCALE_INLINE FloatPoint load_float(FloatVec3Arrays from, std::size_t at) {
     return {load<FloatPack>(from.data + at), load<FloatPack>(from.data + from.padded + at),
             load<FloatPack>(from.data + 2 * from.padded + at)};
 }
-PERCALE_INLINE void store_float(FloatVectors to, std::size_t at, FloatPoint p) {
+PERCALE_INLINE void store_float(FloatVec3Arrays to, std::size_t at, FloatPoint p) {
     store(to.data + at, p.x);
     store(to.data + to.padded + at, p.y);
     store(to.data + 2 * to.padded + at, p.z);

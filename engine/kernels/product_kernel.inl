@@ -27,7 +27,7 @@ double multiply_slices(const BlockPass& pass, ConstAxes x, const double* points,
 /// y = sum, or b - sum.
 PERCALE_INLINE void store_product(const FloatPass& pass, std::size_t at, FloatPoint sum) {
     if (pass.right) {
-        const FloatVectors right{const_cast<float*>(pass.right), pass.y.padded};
+        const FloatVec3Arrays right{const_cast<float*>(pass.right), pass.y.padded};
         sum = load_float(right, at) - sum;
     }
     store_float(pass.y, at, sum);

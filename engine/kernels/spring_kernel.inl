@@ -1,7 +1,7 @@
 // The springs as every vertex sees them. Each is evaluated from both of its ends: differences change sign exactly, so the two
 // forces are exactly opposite.
 
-/// Below this square a length gives no direction, m^2; above the other the state has blown up and the force is not a number.
+/// Below this square a length gives no direction, m^2; above the other the state has diverged and the force is not a number.
 constexpr double no_length_square = 1e-36;
 constexpr double blown_up_square = 1e36;
 
@@ -14,7 +14,7 @@ struct SpringState {
     WidePack bending{};
 };
 
-/// What the evaluation does besides springs without motion.
+/// Optional parts of the evaluation of springs.
 struct SpringParts {
     bool matrix, motion, bending;
 };

@@ -7,7 +7,7 @@ void pack_points(ConstAxes from, double* points, Slices range) {
     }
 }
 
-void pack_float_points(FloatVectors from, float* points, Slices range) {
+void pack_float_points(FloatVec3Arrays from, float* points, Slices range) {
     for (std::size_t i = static_cast<std::size_t>(range.first) * slice_lanes;
          i < static_cast<std::size_t>(range.last) * slice_lanes; i += 4) {
         const FourFloats x = load<FourFloats>(from.data + i), y = load<FourFloats>(from.data + from.padded + i);
@@ -64,7 +64,7 @@ void jacobi(const float* inverse, std::size_t padded, ConstAxes r, Axes z, Slice
     });
 }
 
-void to_float(double scale, ConstAxes from, FloatVectors to, Slices range) {
+void to_float(double scale, ConstAxes from, FloatVec3Arrays to, Slices range) {
     const WidePack factor = all_wide(scale);
     for_packs(range, [&](std::size_t at, int) {
         const WidePoint v = factor * load_wide(from, at);
@@ -72,7 +72,7 @@ void to_float(double scale, ConstAxes from, FloatVectors to, Slices range) {
     });
 }
 
-void add_float(double scale, FloatVectors from, Axes to, Slices range) {
+void add_float(double scale, FloatVec3Arrays from, Axes to, Slices range) {
     const WidePack factor = all_wide(scale);
     for_packs(range, [&](std::size_t at, int) {
         const FloatPoint v = load_float(from, at);
@@ -82,13 +82,13 @@ void add_float(double scale, FloatVectors from, Axes to, Slices range) {
 
 PERCALE_INLINE FloatPack dot(FloatPoint a, FloatPoint b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-double float_dot(FloatVectors a, FloatVectors b, Slices range) {
+double float_dot(FloatVec3Arrays a, FloatVec3Arrays b, Slices range) {
     LaneSums sums;
     for_packs(range, [&](std::size_t at, int lane) { sums.add(lane, widen(dot(load_float(a, at), load_float(b, at)))); });
     return sums.total();
 }
 
-double float_advance(float alpha, FloatVectors p, FloatVectors q, FloatVectors x, FloatVectors r, Slices range) {
+double float_advance(float alpha, FloatVec3Arrays p, FloatVec3Arrays q, FloatVec3Arrays x, FloatVec3Arrays r, Slices range) {
     LaneSums sums;
     const FloatPack factor = all(alpha);
     for_packs(range, [&](std::size_t at, int lane) {
@@ -100,7 +100,7 @@ double float_advance(float alpha, FloatVectors p, FloatVectors q, FloatVectors x
     return sums.total();
 }
 
-void float_turn(float beta, FloatVectors z, FloatVectors p, Slices range) {
+void float_turn(float beta, FloatVec3Arrays z, FloatVec3Arrays p, Slices range) {
     const FloatPack factor = all(beta);
     for_packs(range, [&](std::size_t at, int) { store_float(p, at, load_float(z, at) + factor * load_float(p, at)); });
 }

@@ -9,8 +9,8 @@
 namespace percale {
 namespace {
 
-/// Adds the contacts' product to y at free vertices; returns what that adds to x . y.
-double add_contact_product(const BlockMatrix& matrix, const Vectors& x, Vectors& y) {
+/// Adds the contacts' product to y at free vertices; returns its contribution to x . y.
+double add_contact_product(const BlockMatrix& matrix, const Vec3Arrays& x, Vec3Arrays& y) {
     double sum = 0.0;
     for (const CoupledBlock& block : matrix.contacts) {
         Vec3 u = Vec3::Zero();
@@ -30,7 +30,7 @@ CornerProduct corner_product(const BlockMatrix& matrix, const SpringTerms& sprin
     return {matrix.pattern->membrane.corners(), springs.corners.data()};
 }
 
-/// sum |weight|: the factor that makes |w_k| K at each vertex an upper bound of the row.
+/// sum |weight|: the factor that makes |w_k| K at each vertex an upper bound of the constraint.
 double bound_factor(const CoupledBlock& block) { return between_cloths(block) ? 2.0 : 1.0; }
 
 void gather_contacts(BlockMatrix& matrix) {
@@ -55,15 +55,17 @@ void gather_contacts(BlockMatrix& matrix) {
 void invert_with_contacts(BlockMatrix& matrix) {
     const std::size_t padded = matrix.padded();
     const int vertices = static_cast<int>(matrix.contacts_by_vertex.size());
-    for_stretches(*matrix.compute, vertices, row_grain, vertices >= least_shared_rows, [&](int first, int last, int) {
-        for (int c = first; c < last; ++c) {
-            const VertexContact& contact = matrix.contacts_by_vertex[c];
-            std::array<double, 6> block;
-            for (int k = 0; k < 6; ++k) block[k] = matrix.diagonal[k][contact.vertex] + contact.k[k];
-            const std::array<double, 6> inverse = inverse_block(block);
-            for (int k = 0; k < 6; ++k) matrix.inverse[k * padded + contact.vertex] = static_cast<float>(inverse[k]);
-        }
-    });
+    parallel_for_chunks(*matrix.compute, vertices, constraint_grain, vertices >= min_shared_constraints,
+                        [&](int first, int last, int) {
+                            for (int c = first; c < last; ++c) {
+                                const VertexContact& contact = matrix.contacts_by_vertex[c];
+                                std::array<double, 6> block;
+                                for (int k = 0; k < 6; ++k) block[k] = matrix.diagonal[k][contact.vertex] + contact.k[k];
+                                const std::array<double, 6> inverse = inverse_block(block);
+                                for (int k = 0; k < 6; ++k)
+                                    matrix.inverse[k * padded + contact.vertex] = static_cast<float>(inverse[k]);
+                            }
+                        });
     for_each_vertex(*matrix.compute, matrix.slices(), [&](std::size_t i) {
         if (matrix.free[i] > 0.0) return;
         for (int k = 0; k < 6; ++k) matrix.inverse[k * padded + i] = 0.0f;
@@ -124,18 +126,18 @@ void fill_diagonal(const BlockMatrix& matrix, const SpringTerms& springs, Diagon
 void fill_matrix(const SpringTerms& springs, std::span<const CoupledBlock> contacts, BlockMatrix& matrix) {
     matrix.springs = &springs;
     matrix.contacts = contacts;
-    matrix.enclosed = {};
+    matrix.pressure_blocks = {};
     fill_diagonal(matrix, springs, matrix.diagonal, matrix.inverse);
     gather_contacts(matrix);
     invert_with_contacts(matrix);
 }
 
-double multiply(const BlockMatrix& matrix, const Vectors& x, AlignedVector<double>& points, Vectors& y) {
+double multiply(const BlockMatrix& matrix, const Vec3Arrays& x, AlignedVector<double>& points, Vec3Arrays& y) {
     pack_points(*matrix.compute, *matrix.pattern, x, points);
     return multiply_placed(matrix, x, points, y);
 }
 
-double multiply_placed(const BlockMatrix& matrix, const Vectors& x, const AlignedVector<double>& points, Vectors& y) {
+double multiply_placed(const BlockMatrix& matrix, const Vec3Arrays& x, const AlignedVector<double>& points, Vec3Arrays& y) {
     const Compute& compute = *matrix.compute;
     const BlockPass pass{
         .pattern = matrix.pattern->pattern(), .values = matrix.springs->values.data(), .ground = matrix.mass.data()};
@@ -149,15 +151,15 @@ double multiply_placed(const BlockMatrix& matrix, const Vectors& x, const Aligne
                           [&](Slices range) { return compute.kernels->multiply_corners(corners, product, range); });
     }
     sum += add_contact_product(matrix, x, y);
-    if (matrix.enclosed.empty()) return sum;
-    add_enclosed_product(matrix, x, y);
+    if (matrix.pressure_blocks.empty()) return sum;
+    add_pressure_product(matrix, x, y);
     filter(matrix, y);
     return dot(compute, x, y);
 }
 
-void add_enclosed_product(const BlockMatrix& matrix, const Vectors& x, Vectors& y) {
-    const Vectors& q = *matrix.positions;
-    for (const EnclosedBlock& block : matrix.enclosed) {
+void add_pressure_product(const BlockMatrix& matrix, const Vec3Arrays& x, Vec3Arrays& y) {
+    const Vec3Arrays& q = *matrix.positions;
+    for (const PressureBlock& block : matrix.pressure_blocks) {
         if (block.stiffness > 0.0) add_scaled(y, block.stiffness * dot(*matrix.compute, block.gradient, x), block.gradient);
         // The change of the gradient (b - a) x (c - a)/6 that each corner has.
         const double factor = -block.load / 6.0;
@@ -169,7 +171,8 @@ void add_enclosed_product(const BlockMatrix& matrix, const Vectors& x, Vectors& 
     }
 }
 
-void set_residual(const BlockMatrix& matrix, const Vectors& b, const Vectors& x, AlignedVector<double>& points, Vectors& r) {
+void set_residual(const BlockMatrix& matrix, const Vec3Arrays& b, const Vec3Arrays& x, AlignedVector<double>& points,
+                  Vec3Arrays& r) {
     multiply(matrix, x, points, r);
     for_each_vertex(*matrix.compute, matrix.slices(), [&](std::size_t i) {
         r.x[i] = matrix.free[i] * b.x[i] - r.x[i];
@@ -178,11 +181,11 @@ void set_residual(const BlockMatrix& matrix, const Vectors& b, const Vectors& x,
     });
 }
 
-void precondition(const BlockMatrix& matrix, const Vectors& r, Vectors& z, Slices range) {
+void precondition(const BlockMatrix& matrix, const Vec3Arrays& r, Vec3Arrays& z, Slices range) {
     matrix.compute->kernels->jacobi(matrix.inverse.data(), matrix.padded(), r.axes(), z.axes(), range);
 }
 
-void filter(const BlockMatrix& matrix, Vectors& x) {
+void filter(const BlockMatrix& matrix, Vec3Arrays& x) {
     for (auto* axis : {&x.x, &x.y, &x.z}) {
         for (std::size_t i = 0; i < axis->size(); ++i) (*axis)[i] *= matrix.free[i];
     }

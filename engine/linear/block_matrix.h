@@ -7,27 +7,28 @@
 #include "forces/blocks.h"
 #include "forces/springs.h"
 #include "model/adjacency.h"
-#include "model/vectors.h"
+#include "model/vec3_arrays.h"
 
 namespace percale {
 
-/// Where entry (a, b) of a symmetric block stands in xx xy xz yy yz zz.
+/// The place of entry (a, b) of a symmetric block in xx xy xz yy yz zz.
 constexpr int symmetric_entry[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
 
-/// What all contacts of one vertex add to its diagonal block, each row taken whole at every vertex by weight (an upper bound that
-/// equals the row itself where the vertices move alike, or between cloths where the two sides move against each other).
+/// The sum of all contacts of one vertex in its diagonal block, each constraint taken whole at every vertex by weight (an upper
+/// bound that equals the constraint itself where the vertices move alike, or between cloths where the two sides move against each
+/// other).
 struct VertexContact {
     int vertex;
     std::array<double, 6> k;  // kg, xx xy xz yy yz zz
 };
 
-/// Whether a contact row is between cloths, or parts of one, rather than with an obstacle: some weights are negative.
+/// Whether a contact constraint is between cloths, or parts of one, rather than with an obstacle: some weights are negative.
 bool between_cloths(const CoupledBlock& block);
 
 /// The step matrix A = M - dt Jv - dt^2 Jq, kg. Springs act on differences of vertices by blocks a I + w w^T, held in single
-/// precision: each is then a spring whose stiffness is right to 6e-8, and the matrix is exactly symmetric and, without enclosed
-/// blocks, positive definite. What couples the edges of a membrane's triangle comes in addition, corner by corner
-/// (SpringTerms::corners). Masses and contact rows are in double precision, contacts kept apart.
+/// precision: each is then a spring whose stiffness is exact to 6e-8, and the matrix is exactly symmetric and, without pressure
+/// blocks, positive definite. The coupling of the edges of a membrane's triangle is added corner by corner
+/// (SpringTerms::corners). Masses and contact constraints are in double precision, contacts kept apart.
 struct BlockMatrix {
     const Adjacency* pattern = nullptr;
     const Compute* compute = nullptr;
@@ -38,41 +39,42 @@ struct BlockMatrix {
     AlignedVector<float> inverse;            // of the diagonal blocks with contact, six arrays; 0 at prescribed vertices
     std::span<const CoupledBlock> contacts;  // viewed, not copied
     std::vector<VertexContact> contacts_by_vertex;
-    std::span<const EnclosedBlock> enclosed;  // viewed, not copied; in no preconditioner
-    const Vectors* positions = nullptr;       // m, at which they were taken
-    std::vector<int> contact_slot;            // of a vertex in contacts_by_vertex, or -1
+    std::span<const PressureBlock> pressure_blocks;  // viewed, not copied; in no preconditioner
+    const Vec3Arrays* positions = nullptr;           // m, at which the pressure blocks were made
+    std::vector<int> contact_slot;                   // of a vertex in contacts_by_vertex, or -1
 
     std::size_t padded() const { return free.size(); }
     int slices() const { return pattern->slices(); }
 };
 
-/// Sizes the matrix for a pattern, which is viewed; all vertices free.
+/// Sizes the matrix for a pattern, which is viewed; all vertices become free.
 void set_pattern(const Compute& compute, const Adjacency& pattern, std::span<const double> mass, BlockMatrix& matrix);
 
-/// Diagonal blocks of mass and springs, and their inverses.
+/// Makes the diagonal blocks of mass and springs, and their inverses.
 void fill_diagonal(const BlockMatrix& matrix, const SpringTerms& springs, DiagonalBlocks& diagonal,
                    AlignedVector<float>& inverse);
 
-/// Takes springs and contacts of a state; no enclosed blocks.
+/// Takes springs and contacts of a state; removes pressure blocks.
 void fill_matrix(const SpringTerms& springs, std::span<const CoupledBlock> contacts, BlockMatrix& matrix);
 
-/// y += A_e x at all vertices, the part of the enclosed blocks.
-void add_enclosed_product(const BlockMatrix& matrix, const Vectors& x, Vectors& y);
+/// y += A_e x at all vertices, where A_e are the pressure blocks.
+void add_pressure_product(const BlockMatrix& matrix, const Vec3Arrays& x, Vec3Arrays& y);
 
 /// y = A x on the free vertices, 0 at prescribed ones; returns x . y over the free ones. `points` is work space.
-double multiply(const BlockMatrix& matrix, const Vectors& x, AlignedVector<double>& points, Vectors& y);
+double multiply(const BlockMatrix& matrix, const Vec3Arrays& x, AlignedVector<double>& points, Vec3Arrays& y);
 
 /// The same with x in `points` already (place_points).
-double multiply_placed(const BlockMatrix& matrix, const Vectors& x, const AlignedVector<double>& points, Vectors& y);
+double multiply_placed(const BlockMatrix& matrix, const Vec3Arrays& x, const AlignedVector<double>& points, Vec3Arrays& y);
 
 /// r = b - A x on the free vertices, 0 at prescribed ones.
-void set_residual(const BlockMatrix& matrix, const Vectors& b, const Vectors& x, AlignedVector<double>& points, Vectors& r);
+void set_residual(const BlockMatrix& matrix, const Vec3Arrays& b, const Vec3Arrays& x, AlignedVector<double>& points,
+                  Vec3Arrays& r);
 
 /// z = D^-1 r for free vertices, 0 for the others (D: block diagonal), on a range.
-void precondition(const BlockMatrix& matrix, const Vectors& r, Vectors& z, Slices range);
+void precondition(const BlockMatrix& matrix, const Vec3Arrays& r, Vec3Arrays& z, Slices range);
 
 /// x = 0 at prescribed vertices.
-void filter(const BlockMatrix& matrix, Vectors& x);
+void filter(const BlockMatrix& matrix, Vec3Arrays& x);
 
 /// The inverse of a symmetric positive definite 3x3 block xx xy xz yy yz zz, by cofactors.
 std::array<double, 6> inverse_block(const std::array<double, 6>& m);

@@ -8,15 +8,15 @@
 namespace percale {
 namespace {
 
-constexpr int most_weights = 3;
-constexpr int most_candidates = most_weights + 2;
+constexpr int max_weights = 3;
+constexpr int max_candidates = max_weights + 2;
 
 /// The strong neighbours of each vertex, and the strongest of all.
 struct Neighbours {
     std::vector<int> start, vertex;
     std::vector<int> strongest;  // -1 for a vertex without pairs
 
-    Neighbours(const SpringGraph& graph, double share)
+    Neighbours(const SpringGraph& graph, double ratio)
         : start(graph.positions.size() + 1, 0), strongest(graph.positions.size(), -1) {
         std::vector<double> largest(graph.positions.size(), 0.0);
         for (std::size_t e = 0; e < graph.pairs.size(); ++e) {
@@ -28,7 +28,7 @@ struct Neighbours {
             }
         }
         const auto strong = [&](std::size_t e) {
-            return graph.strength[e] >= share * std::min(largest[graph.pairs[e][0]], largest[graph.pairs[e][1]]);
+            return graph.strength[e] >= ratio * std::min(largest[graph.pairs[e][0]], largest[graph.pairs[e][1]]);
         };
         for (std::size_t e = 0; e < graph.pairs.size(); ++e) {
             if (!strong(e)) continue;
@@ -72,7 +72,7 @@ void find_candidates(const SpringGraph& graph, const Neighbours& near, const std
     const auto offer = [&](int j) {
         if (kept[j] != 1 || std::any_of(found.begin(), found.end(), [j](const Candidate& c) { return c.vertex == j; })) return;
         found.push_back(
-            {.square = std::max((graph.positions[i] - graph.positions[j]).squaredNorm(), least_candidate_square), .vertex = j});
+            {.square = std::max((graph.positions[i] - graph.positions[j]).squaredNorm(), min_candidate_square), .vertex = j});
     };
     for (int k = near.start[i]; k < near.start[i + 1]; ++k) offer(near.vertex[k]);
     for (int k = near.start[i]; k < near.start[i + 1]; ++k) {
@@ -82,7 +82,7 @@ void find_candidates(const SpringGraph& graph, const Neighbours& near, const std
     std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
         return a.square != b.square ? a.square < b.square : a.vertex < b.vertex;
     });
-    if (found.size() > most_candidates) found.resize(most_candidates);
+    if (found.size() > max_candidates) found.resize(max_candidates);
 }
 
 /// Weights (1 + g . (x_c - x_i))/|x_c - x_i|^2 with g such that their first moment vanishes; the most negative candidate is
@@ -127,16 +127,16 @@ InterpolationRow interpolation_row(const SpringGraph& graph, int i, int fallback
                          [](const Candidate& a, const Candidate& b) { return a.weight > b.weight; });
     };
     weigh_and_sort();
-    if (candidates.size() > most_weights) {
-        // The moment condition has to hold for those that stay.
-        candidates.resize(most_weights);
+    if (candidates.size() > max_weights) {
+        // The moment condition must hold for the remaining ones.
+        candidates.resize(max_weights);
         weigh_and_sort();
     }
     if (candidates.empty()) return single(fallback);
     InterpolationRow row{.vertex = {-1, -1, -1}, .weight = {}, .count = 0};
     double sum = 0.0;
     for (const Candidate& c : candidates) {
-        if (row.count == most_weights || c.weight <= least_weight_share * candidates[0].weight) break;
+        if (row.count == max_weights || c.weight <= min_weight_ratio * candidates[0].weight) break;
         row.vertex[row.count] = c.vertex;
         row.weight[row.count++] = c.weight;
         sum += c.weight;
@@ -148,10 +148,10 @@ InterpolationRow interpolation_row(const SpringGraph& graph, int i, int fallback
 }  // namespace
 
 Coarsening coarsen(const SpringGraph& graph) {
-    Neighbours near(graph, strong_pair_share);
+    Neighbours near(graph, strong_pair_ratio);
     std::vector<char> kept = independent_set(near);
-    if (static_cast<double>(std::count(kept.begin(), kept.end(), 1)) > most_kept_share * static_cast<double>(kept.size())) {
-        near = Neighbours(graph, lower_pair_share);
+    if (static_cast<double>(std::count(kept.begin(), kept.end(), 1)) > max_kept_ratio * static_cast<double>(kept.size())) {
+        near = Neighbours(graph, lower_pair_ratio);
         kept = independent_set(near);
     }
     const int count = static_cast<int>(graph.positions.size());

@@ -7,11 +7,11 @@
 
 namespace percale {
 
-/// Springs as a graph: what a coarser level is chosen from.
+/// Springs as a graph, from which a coarser level is chosen.
 struct SpringGraph {
     std::vector<Vec3> positions;  // m, at rest
     std::vector<std::array<int, 2>> pairs;
-    std::vector<double> strength;  // one a pair, N/m
+    std::vector<double> strength;  // of each pair, N/m
 };
 
 /// At most three weights that sum to 1: a vertex of the finer level as a mean of vertices of the coarser one.
@@ -22,7 +22,7 @@ struct InterpolationRow {
 };
 
 struct Coarsening {
-    std::vector<int> kept;  // vertices of the finer level that make the coarser one
+    std::vector<int> kept;  // vertices of the finer level that form the coarser one
     std::vector<InterpolationRow> rows;
 };
 

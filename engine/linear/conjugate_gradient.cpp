@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "gain_record.h"
+#include "energy_error_estimate.h"
 
 namespace percale {
 namespace {
@@ -14,11 +14,11 @@ public:
     Solve(const BlockMatrix& matrix, const Preconditioner& preconditioner, SolveSpace& space)
         : matrix_(matrix), preconditioner_(preconditioner), compute_(*matrix.compute), space_(space) {}
 
-    SolveReport run(const Vectors& b, const SolveTarget& target, Vectors& x) {
+    SolveReport run(const Vec3Arrays& b, const SolveTarget& target, Vec3Arrays& x) {
         const double first_square = start(b, x);
         if (first_square == 0.0) return {.iterations = 0, .converged = true};
         const double tolerance = target.relative_residual * target.relative_residual * first_square;
-        GainRecord gains(10);
+        EnergyErrorEstimate gains(10);
         double rz = apply_preconditioner(), beta = 0.0;
         copy(compute_, space_.z, space_.p);  // set_residual has sized space_.points and set its guards
         SolveReport report;
@@ -30,7 +30,7 @@ public:
             });
             const double curvature = multiply_placed(matrix_, space_.p, space_.points, space_.q);
             if (!(curvature > 0.0) || !std::isfinite(rz)) {
-                if (!matrix_.enclosed.empty() && report.iterations == 1) add_scaled(x, 1.0, space_.p);
+                if (!matrix_.pressure_blocks.empty() && report.iterations == 1) add_scaled(x, 1.0, space_.p);
                 return report;
             }
             const double alpha = rz / curvature;
@@ -47,10 +47,10 @@ public:
 
 private:
     const Kernels& kernels() const { return *compute_.kernels; }
-    static ConstAxes view(const Vectors& vectors) { return vectors.axes(); }
+    static ConstAxes view(const Vec3Arrays& vectors) { return vectors.axes(); }
 
     /// r = b - A x on the free vertices; returns its square.
-    double start(const Vectors& b, const Vectors& x) {
+    double start(const Vec3Arrays& b, const Vec3Arrays& x) {
         if (space_.r.padded_size() != b.padded_size()) {
             for (auto* vectors : {&space_.r, &space_.z, &space_.p, &space_.q}) vectors->resize(static_cast<int>(b.padded_size()));
         }
@@ -63,7 +63,7 @@ private:
     }
 
     /// x += alpha p, r -= alpha q, and z where the preconditioner is the diagonal; returns r . r and then r . z.
-    std::array<double, 2> advance(double alpha, Vectors& x) {
+    std::array<double, 2> advance(double alpha, Vec3Arrays& x) {
         return sum_pairs(compute_, matrix_.slices(), chunk_slices, [&](Slices range, int) {
             const double square = kernels().advance(alpha, view(space_.p), view(space_.q), x.axes(), space_.r.axes(), range);
             if (preconditioner_) return std::array<double, 2>{square, 0.0};
@@ -90,7 +90,7 @@ private:
 
 }  // namespace
 
-SolveReport solve_cg(const BlockMatrix& matrix, const Vectors& b, const SolveTarget& target, SolveSpace& space, Vectors& x,
+SolveReport solve_cg(const BlockMatrix& matrix, const Vec3Arrays& b, const SolveTarget& target, SolveSpace& space, Vec3Arrays& x,
                      const Preconditioner& preconditioner) {
     return Solve(matrix, preconditioner, space).run(b, target, x);
 }

@@ -22,7 +22,7 @@ void add_block(int i, int j, const std::array<double, 6>& block, Triplets& entri
     }
 }
 
-/// What springs and membranes put below the diagonal of row i, blocks that need not be symmetric.
+/// Adds the blocks of springs and membranes below the diagonal of row i, which need not be symmetric.
 void add_row(const BlockMatrix& matrix, int i, Triplets& entries) {
     if (matrix.free[i] == 0.0) return;
     for_each_entry(matrix, i, [&](int j, const Eigen::Matrix3d& block) {
@@ -63,8 +63,8 @@ struct DirectSolver::Factor {
     Eigen::SimplicialLDLT<Sparse> ldlt;
     Sparse matrix;
     Triplets entries;
-    std::vector<int> columns, rows;  // of the matrix that was analysed
-    Vectors residual, step;
+    std::vector<int> columns, rows;  // of the matrix analysed last
+    Vec3Arrays residual, step;
     AlignedVector<double> points;
 
     void factorise(const BlockMatrix& from) {
@@ -91,7 +91,7 @@ bool DirectSolver::factorise(const BlockMatrix& matrix) {
     return factor_->ldlt.info() == Eigen::Success && (factor_->ldlt.vectorD().array() > 0.0).all();
 }
 
-void DirectSolver::apply(const BlockMatrix& matrix, const Vectors& r, Vectors& x) const {
+void DirectSolver::apply(const BlockMatrix& matrix, const Vec3Arrays& r, Vec3Arrays& x) const {
     const int count = matrix.pattern->vertex_count;
     Eigen::VectorXd right(3 * count);
     for (int i = 0; i < count; ++i) right.segment<3>(3 * i) = r.at(i);
@@ -102,7 +102,7 @@ void DirectSolver::apply(const BlockMatrix& matrix, const Vectors& r, Vectors& x
     }
 }
 
-bool DirectSolver::solve(const BlockMatrix& matrix, const Vectors& b, Vectors& x) {
+bool DirectSolver::solve(const BlockMatrix& matrix, const Vec3Arrays& b, Vec3Arrays& x) {
     if (!factorise(matrix)) return false;
     Factor& factor = *factor_;
     factor.residual.resize(static_cast<int>(x.padded_size()));

@@ -17,12 +17,12 @@ public:
 
     /// x on the free vertices such that A x = b there, prescribed entries of x kept; false if the matrix is not positive
     /// definite.
-    bool solve(const BlockMatrix& matrix, const Vectors& b, Vectors& x);
+    bool solve(const BlockMatrix& matrix, const Vec3Arrays& b, Vec3Arrays& x);
 
-    /// The two halves of it: false if the matrix is not positive definite; x = A^-1 r on the free vertices, 0 at the others, with
-    /// the matrix factorised last. Enclosed blocks are not in it.
+    /// The two halves of solve: false if the matrix is not positive definite; x = A^-1 r on the free vertices, 0 at the others,
+    /// with the matrix factorised last, without its pressure blocks.
     bool factorise(const BlockMatrix& matrix);
-    void apply(const BlockMatrix& matrix, const Vectors& r, Vectors& x) const;
+    void apply(const BlockMatrix& matrix, const Vec3Arrays& r, Vec3Arrays& x) const;
 
 private:
     struct Factor;

@@ -17,7 +17,7 @@ using Rows = std::vector<std::vector<Entry>>;
 
 int slices_for(std::size_t count) { return static_cast<int>((count + slice_lanes - 1) / slice_lanes); }
 
-/// Where each slice starts: as many entries a lane as its longest row has.
+/// The start of each slice: it has as many entries per lane as its longest row.
 std::vector<int> slice_starts(const std::vector<int>& lengths) {
     std::vector<int> start(1, 0);
     for (int s = 0; s < slices_for(lengths.size()); ++s) {
@@ -92,7 +92,7 @@ std::vector<Term> galerkin_terms(const SpringGraph& graph, const Coarsening& coa
         for (int a = 0; a < count; ++a) {
             for (int b = a + 1; b < count; ++b) {
                 const double coefficient = -entries[a].weight * entries[b].weight;
-                if (std::abs(coefficient) <= least_galerkin_coefficient) continue;
+                if (std::abs(coefficient) <= min_galerkin_coefficient) continue;
                 const auto [first, second] = std::minmax(entries[a].index, entries[b].index);
                 terms.push_back({first, second, static_cast<int>(e), static_cast<float>(coefficient)});
             }
@@ -174,9 +174,9 @@ void set_entries(LevelPattern& level) {
 
 std::vector<LevelPattern> make_hierarchy(SpringGraph graph) {
     std::vector<LevelPattern> levels;
-    while (static_cast<int>(graph.positions.size()) > dense_vertices && static_cast<int>(levels.size()) < most_multigrid_levels) {
+    while (static_cast<int>(graph.positions.size()) > dense_vertices && static_cast<int>(levels.size()) < max_multigrid_levels) {
         Coarsening coarsening = coarsen(graph);
-        if (static_cast<double>(coarsening.kept.size()) > most_coarse_share * static_cast<double>(graph.positions.size())) break;
+        if (static_cast<double>(coarsening.kept.size()) > max_coarse_ratio * static_cast<double>(graph.positions.size())) break;
         LevelPattern level;
         SpringGraph coarse = coarse_graph(graph, galerkin_terms(graph, coarsening), level);
         sort_by_degree(coarse, coarsening);

@@ -17,7 +17,7 @@ bool has_slivers(const ClothModel& model) {
 
 bool factorises(const ClothModel& model, LinearSolver wish) {
     if (wish != LinearSolver::automatic) return wish == LinearSolver::direct;
-    return model.vertex_count() <= most_factorised_vertices && has_slivers(model);
+    return model.vertex_count() <= max_factorised_vertices && has_slivers(model);
 }
 
 void StepSolver::set_model(const Compute& compute, const ClothModel& model, LinearSolver wish) {
@@ -36,8 +36,8 @@ void StepSolver::fill(const SpringTerms& springs, std::span<const CoupledBlock> 
     if (in_use_ == LinearSolver::multigrid) fill_multigrid();
 }
 
-void StepSolver::add_enclosed(std::span<const EnclosedBlock> blocks, const Vectors& positions) {
-    matrix.enclosed = blocks;
+void StepSolver::add_pressure_blocks(std::span<const PressureBlock> blocks, const Vec3Arrays& positions) {
+    matrix.pressure_blocks = blocks;
     matrix.positions = &positions;
 }
 
@@ -48,7 +48,7 @@ void StepSolver::fill_multigrid() {
     stale_ = false;
 }
 
-SolveReport StepSolver::solve_enclosed(const Vectors& b, const SolveTarget& target, Vectors& x) {
+SolveReport StepSolver::solve_enclosed(const Vec3Arrays& b, const SolveTarget& target, Vec3Arrays& x) {
     if (in_use_ == LinearSolver::cg) {
         const SolveReport report = solve_cg(matrix, b, target, space_, x);
         const bool dear = wish_ == LinearSolver::automatic && model_->vertex_count() > dense_vertices;
@@ -59,23 +59,23 @@ SolveReport StepSolver::solve_enclosed(const Vectors& b, const SolveTarget& targ
         return report;
     }
     if (in_use_ == LinearSolver::multigrid) {
-        return solve_cg(matrix, b, target, space_, x, [this](const Vectors& r, Vectors& z) {
+        return solve_cg(matrix, b, target, space_, x, [this](const Vec3Arrays& r, Vec3Arrays& z) {
             if (!estimate(r, z)) z.resize(static_cast<int>(r.padded_size()));
         });
     }
     if (!direct_) direct_ = std::make_unique<DirectSolver>();
     const bool factorised = direct_->factorise(matrix);
-    const Preconditioner direct = [this](const Vectors& r, Vectors& z) { direct_->apply(matrix, r, z); };
+    const Preconditioner direct = [this](const Vec3Arrays& r, Vec3Arrays& z) { direct_->apply(matrix, r, z); };
     return solve_cg(matrix, b, target, space_, x, factorised ? direct : Preconditioner());
 }
 
-SolveReport StepSolver::solve(const Vectors& b, const SolveTarget& target, Vectors& x) {
-    if (!matrix.enclosed.empty()) return solve_enclosed(b, target, x);
+SolveReport StepSolver::solve(const Vec3Arrays& b, const SolveTarget& target, Vec3Arrays& x) {
+    if (!matrix.pressure_blocks.empty()) return solve_enclosed(b, target, x);
     int before = 0;
     if (in_use_ == LinearSolver::cg) {
         const bool may_change = wish_ == LinearSolver::automatic && model_->vertex_count() > dense_vertices;
         SolveTarget first = target;
-        if (may_change) first.most_iterations = std::min(target.most_iterations, most_jacobi_iterations);
+        if (may_change) first.max_iterations = std::min(target.max_iterations, max_jacobi_iterations);
         const SolveReport report = solve_cg(matrix, b, first, space_, x);
         if (!may_change || report.iterations <= dear_jacobi_iterations) return report;
         in_use_ = LinearSolver::multigrid;
@@ -94,12 +94,12 @@ SolveReport StepSolver::solve(const Vectors& b, const SolveTarget& target, Vecto
     }
     report.iterations += before;
     if (report.converged) return report;
-    // What is left where the others broke down or reached their precision.
+    // The rest, where the others broke down or reached their precision.
     const SolveReport rest = solve_cg(matrix, b, target, space_, x);
     return {.iterations = report.iterations + rest.iterations, .converged = rest.converged};
 }
 
-bool StepSolver::estimate(const Vectors& r, Vectors& z) {
+bool StepSolver::estimate(const Vec3Arrays& r, Vec3Arrays& z) {
     if (in_use_ != LinearSolver::multigrid || !multigrid_) return false;
     const double square = dot(*matrix.compute, r, r);
     if (!(square > 0.0) || !std::isfinite(square)) return false;

@@ -10,16 +10,16 @@
 
 namespace percale {
 
-/// Whether steps of a model begin with a factorisation: where that is asked for, and where `automatic` finds slivers in small
-/// cloth of moduli.
+/// Whether steps of a model begin with a factorisation: on request, and with `automatic` where small cloth with moduli has
+/// slivers.
 bool factorises(const ClothModel& model, LinearSolver wish);
 
-/// The step matrix with the solver that the settings or the counts so far choose.
+/// The step matrix with the solver chosen by the settings or by the counts so far.
 ///
-/// `automatic` begins with block Jacobi and changes to multigrid, for good and in the midst of a solve, when that has turned out
-/// to be dearer, in products with the matrix: a multigrid solve costs about 8 products for its coarser matrices and 3 an
-/// iteration, and needs about five iterations where block Jacobi needs more than 25. Counts only, no clock: runs repeat bit for
-/// bit. Cloth of moduli with slivers is solved directly, up to `most_factorised_vertices` vertices.
+/// `automatic` begins with block Jacobi and changes to multigrid, permanently and also during a solve, when block Jacobi has
+/// turned out to cost more, in products with the matrix: a multigrid solve costs about 8 products for its coarser matrices and 3
+/// an iteration, and needs about five iterations where block Jacobi needs more than 25. Counts decide, no clock: runs repeat bit
+/// for bit. Cloth of moduli with slivers is solved directly, up to `max_factorised_vertices` vertices.
 class StepSolver {
 public:
     /// Prepares for a model, which is viewed and must stay as it is.
@@ -27,35 +27,35 @@ public:
     bool is_for(const ClothModel& model) const { return matrix.pattern == &model.adjacency; }
     void forget_model() { matrix.pattern = nullptr; }
 
-    /// A new stage begins: what is taken over from earlier matrices is made anew.
+    /// A new stage begins: data kept from earlier matrices is computed anew.
     void start_stage() { stale_ = true; }
 
     /// Takes springs and contacts of a state.
     void fill(const SpringTerms& springs, std::span<const CoupledBlock> contacts);
-    /// After that: enclosed blocks, taken at these positions, which join in every product of A but in no preconditioner. They are
-    /// few directions, in which conjugate gradient needs an iteration or two more.
-    void add_enclosed(std::span<const EnclosedBlock> blocks, const Vectors& positions);
+    /// Then adds pressure blocks, taken at these positions, to every product of A but to no preconditioner. They are few
+    /// directions, for which conjugate gradient needs an iteration or two more.
+    void add_pressure_blocks(std::span<const PressureBlock> blocks, const Vec3Arrays& positions);
 
-    /// A x = b on the free vertices, prescribed entries of x kept. Where multigrid or the factorisation does not get there,
-    /// conjugate gradient with block Jacobi in double precision goes on.
-    SolveReport solve(const Vectors& b, const SolveTarget& target, Vectors& x);
+    /// A x = b on the free vertices, prescribed entries of x kept. Where multigrid or the factorisation does not converge,
+    /// conjugate gradient with block Jacobi in double precision continues.
+    SolveReport solve(const Vec3Arrays& b, const SolveTarget& target, Vec3Arrays& x);
 
     /// A cheap estimate of A^-1 r with the matrix last filled in: z = one application of the preconditioner. False where that is
-    /// no good estimate, as with block Jacobi. Enclosed blocks are left out: of what fills a cloth z is too large rather than too
-    /// small.
-    bool estimate(const Vectors& r, Vectors& z);
+    /// no good estimate, as with block Jacobi. Pressure blocks are left out: for a cloth that holds gas z is too large rather
+    /// than too small.
+    bool estimate(const Vec3Arrays& r, Vec3Arrays& z);
 
-    /// What `automatic` begins with for the next model; cg unless said.
+    /// The solver with which `automatic` begins for the next model; cg by default.
     void begin_with(LinearSolver solver) { first_ = solver; }
 
     LinearSolver in_use() const { return in_use_; }
 
-    /// What `automatic` begins with and has come to.
+    /// The solver with which `automatic` began and the present one.
     struct Choice {
         LinearSolver first = LinearSolver::cg, in_use = LinearSolver::cg;
     };
     Choice choice() const { return {first_, in_use_}; }
-    /// Goes on as a solver of the same model did; after set_model.
+    /// Continues with the choice of a solver of the same model; after set_model.
     void go_on_from(const Choice& choice) {
         first_ = choice.first;
         in_use_ = choice.in_use;
@@ -65,7 +65,7 @@ public:
 
 private:
     void fill_multigrid();
-    SolveReport solve_enclosed(const Vectors& b, const SolveTarget& target, Vectors& x);
+    SolveReport solve_enclosed(const Vec3Arrays& b, const SolveTarget& target, Vec3Arrays& x);
 
     const ClothModel* model_ = nullptr;
     LinearSolver wish_ = LinearSolver::automatic;
@@ -73,7 +73,7 @@ private:
     LinearSolver in_use_ = LinearSolver::cg;
     std::unique_ptr<Multigrid> multigrid_;
     std::unique_ptr<DirectSolver> direct_;
-    bool stale_ = true;         // multigrid's coarser levels are to be made anew
+    bool stale_ = true;         // multigrid's coarser levels must be computed anew
     int fresh_iterations_ = 0;  // of the first solve with them
     SolveSpace space_;
     MultigridSpace multigrid_space_;

@@ -6,8 +6,8 @@
 
 namespace percale {
 
-/// What a corner of a membrane's triangle adds between its vertex i and the two others: with y_i = -(u_p p + u_q q),
-/// u_p = pq q.dq + pr r.dr, u_q = pq p.dp + qr r.dr (MembraneCorners).
+/// The blocks of a membrane's triangle between the vertex i of a corner and the two others: with y_i = -(u_p p + u_q q), u_p = pq
+/// q.dq + pr r.dr, u_q = pq p.dp + qr r.dr (MembraneCorners).
 struct CornerBlocks {
     Eigen::Matrix3d first, second;
 
@@ -22,8 +22,8 @@ struct CornerBlocks {
     }
 };
 
-/// Calls work(j, block) for what springs and then membranes put between vertex i and others, kg: the blocks of row i off the
-/// diagonal, several for one j.
+/// Calls work(j, block) for the blocks of springs and then of membranes between vertex i and others, kg: the blocks of row i off
+/// the diagonal, several for one j.
 template <class Work>
 void for_each_entry(const BlockMatrix& matrix, int i, const Work& work) {
     const Adjacency& pattern = *matrix.pattern;

@@ -46,7 +46,7 @@ std::array<float, 6> to_float(const Block& a) {
 Multigrid::Multigrid(const Compute& compute, const Adjacency& pattern, std::span<const Vec3> rest)
     : compute_(compute), adjacency_(pattern) {
     SpringGraph graph{.positions = {rest.begin(), rest.end()}, .pairs = {}, .strength = {}};
-    // Pairs in the order of their vertices: what is near is then near in memory, too.
+    // Pairs in the order of their vertices: neighbours are then near in memory, too.
     std::vector<bool> seen(pattern.place.size(), false);
     for (int s = 0; s < pattern.slices(); ++s) {
         for (int lane = 0; lane < slice_lanes; ++lane) {
@@ -87,7 +87,7 @@ void Multigrid::add_level(const LevelPattern& pattern) {
     levels_.push_back(std::move(level));
 }
 
-/// The ends of springs of sewn points, and what coarser vertices they hang on.
+/// Finds the ends of springs of sewn points, and the coarser vertices that they depend on.
 void Multigrid::find_eased() {
     const auto sort_out = [](std::vector<int>& list) {
         std::sort(list.begin(), list.end());
@@ -111,8 +111,7 @@ void Multigrid::find_eased() {
     }
 }
 
-/// The block w w^T K of a vertex sewn to a point has, over its part of the diagonal, three times that as eigenvalue; a spring has
-/// twice that.
+/// The block w w^T K of a vertex sewn to a point has three times its part of the diagonal as eigenvalue; a spring has twice that.
 void Multigrid::ease(Level& level) const {
     for (const int vertex : level.eased) {
         for (std::size_t entry = 0; entry < 6; ++entry) level.inverse[entry * level.padded + vertex] *= sewn_point_easing;
@@ -143,34 +142,34 @@ void Multigrid::fill(const BlockMatrix& matrix, Coarser coarser) {
     contacts_ = matrix.contacts;
     find_between(matrix);
     set_filters(matrix);
-    set_contact_rows(matrix);
+    set_contact_constraints(matrix);
     if (coarser == Coarser::kept) return;
     expand_blocks(*matrix.springs);
     for (int k = 1; k < levels(); ++k) fill_level(k);
     if (bottom_size_ > 0) fill_bottom();
 }
 
-/// Rows between cloths, if some of them are stiffer than their vertex.
+/// Finds the constraints between cloths, if some of them are stiffer than their vertex.
 void Multigrid::find_between(const BlockMatrix& matrix) {
-    between_rows_.clear();
+    between_constraints_.clear();
     if (levels() == 1) return;
     bool any_is_stiff = false;
     for (std::size_t row = 0; row < contacts_.size(); ++row) {
         const CoupledBlock& block = contacts_[row];
         if (!between_cloths(block)) continue;
-        between_rows_.push_back(static_cast<int>(row));
+        between_constraints_.push_back(static_cast<int>(row));
         const int i = block.vertex[0];
         const double own = matrix.diagonal[0][i] + matrix.diagonal[3][i] + matrix.diagonal[5][i];
-        any_is_stiff = any_is_stiff || trace(block.k) > stiff_row_factor * own;
+        any_is_stiff = any_is_stiff || trace(block.k) > stiff_constraint_factor * own;
     }
-    if (!any_is_stiff) between_rows_.clear();
-    if (any_is_stiff) change_.assign(3 * padded(), 0.0f);  // 0 at all that no sweep sets
+    if (!any_is_stiff) between_constraints_.clear();
+    if (any_is_stiff) change_.assign(3 * padded(), 0.0f);  // 0 at all entries that no sweep sets
 }
 
-/// VertexContact::k of each without the rows between cloths that are taken as they are.
+/// Sets VertexContact::k of each vertex without the constraints between cloths that are taken exactly.
 void Multigrid::set_held_alone(const BlockMatrix& matrix) {
     held_.assign(matrix.contacts_by_vertex.size(), {});
-    if (between_rows_.empty()) {
+    if (between_constraints_.empty()) {
         std::ranges::transform(matrix.contacts_by_vertex, held_.begin(), &VertexContact::k);
         return;
     }
@@ -226,14 +225,14 @@ void Multigrid::set_filters(const BlockMatrix& matrix) {
     before_.resize(filtered_.size());
 }
 
-/// Vertex by vertex in the order of the rows, so that sums over a vertex do not depend on who makes them; those that are taken as
-/// they are come first.
-void Multigrid::set_contact_rows(const BlockMatrix& matrix) {
-    row_force_.resize(contacts_.size());
+/// Lists constraints vertex by vertex in their order, so that sums over a vertex do not depend on the thread; those that are
+/// taken exactly come first.
+void Multigrid::set_contact_constraints(const BlockMatrix& matrix) {
+    constraint_force_.resize(contacts_.size());
     const auto for_ends = [&](bool of_between, auto work) {
         for (std::size_t row = 0; row < contacts_.size(); ++row) {
             const CoupledBlock& block = contacts_[row];
-            if ((!between_rows_.empty() && between_cloths(block)) != of_between) continue;
+            if ((!between_constraints_.empty() && between_cloths(block)) != of_between) continue;
             for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
                 const int slot = matrix.contact_slot[block.vertex[k]];
                 if (slot < 0 || filter_of_slot_[slot] < 0 || block.weight[k] == 0.0) continue;
@@ -252,18 +251,18 @@ void Multigrid::set_contact_rows(const BlockMatrix& matrix) {
         first += vertex.between + vertex.rows;
         vertex.rows = 0;
     }
-    row_ends_.resize(first);
+    constraint_ends_.resize(first);
     for (const bool of_between : {true, false}) {
         for_ends(of_between, [&](Filtered& vertex, int row, float weight) {
-            row_ends_[vertex.first_row + vertex.rows++] = {row, weight};
+            constraint_ends_[vertex.first_row + vertex.rows++] = {row, weight};
         });
     }
 }
 
 void Multigrid::expand_blocks(const SpringTerms& springs) {
     const int pairs = static_cast<int>(pair_value_.size());
-    for_stretches(compute_, pairs, pair_grain, pairs >= least_shared_pairs,
-                  [&](int first, int last, int) { expand_stretch(springs, first, last); });
+    parallel_for_chunks(compute_, pairs, pair_grain, pairs >= min_shared_pairs,
+                        [&](int first, int last, int) { expand_stretch(springs, first, last); });
 }
 
 void Multigrid::expand_stretch(const SpringTerms& springs, int first_pair, int last_pair) {
@@ -291,9 +290,9 @@ void Multigrid::fill_level(int k) {
                             .fine = finer.blocks.data(),
                             .coarse = level.blocks.data()};
     const int pairs = static_cast<int>(pattern.pairs.size()), entries = static_cast<int>(pattern.entry_pair.size());
-    for_stretches(compute_, pairs, pair_grain, pairs >= least_shared_pairs,
-                  [&](int first, int last, int) { compute_.kernels->galerkin(sums, first, last); });
-    for_stretches(compute_, entries, pair_grain, entries >= least_shared_pairs, [&](int first, int last, int) {
+    parallel_for_chunks(compute_, pairs, pair_grain, pairs >= min_shared_pairs,
+                        [&](int first, int last, int) { compute_.kernels->galerkin(sums, first, last); });
+    parallel_for_chunks(compute_, entries, pair_grain, entries >= min_shared_pairs, [&](int first, int last, int) {
         for (std::size_t e = first; e < static_cast<std::size_t>(last); ++e) {
             const float* block = &level.blocks[8 * static_cast<std::size_t>(pattern.entry_pair[e])];
             float* value = &level.own_values[6 * (e - e % slice_lanes) + e % slice_lanes];
@@ -320,10 +319,10 @@ void Multigrid::restrict_ground(int k) {
     } else {
         Level& finer = levels_[k - 1];
         for (const std::size_t half : {0, 3}) {
-            const FloatVectors from{finer.ground.data() + half * finer.padded, finer.padded};
+            const FloatVec3Arrays from{finer.ground.data() + half * finer.padded, finer.padded};
             for_chunks(compute_, finer.slices,
                        [&](Slices range) { compute_.kernels->pack_float_points(from, finer.handed.data(), range); });
-            const FloatVectors to{level.ground.data() + half * level.padded, level.padded};
+            const FloatVec3Arrays to{level.ground.data() + half * level.padded, level.padded};
             for_chunks(compute_, level.slices,
                        [&](Slices range) { transfer(patterns_[k - 1].restriction, finer.handed, to, false, range); });
         }
@@ -333,7 +332,7 @@ void Multigrid::restrict_ground(int k) {
     }
 }
 
-/// At the finest level masses, and what holds the filtered vertices.
+/// Restricts masses at the finest level, and what holds the filtered vertices.
 void Multigrid::restrict_mass() {
     Level &fine = levels_[0], &level = levels_[1];
     for_each_vertex(compute_, fine.slices, [&](std::size_t i) {

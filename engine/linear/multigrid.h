@@ -17,18 +17,18 @@ using FloatVec = std::array<float, 3>;
 /// motion is prescribed, by S = d (d I + K)^-1 where contact adds K to a vertex whose own block has the size d along K; coarser
 /// diagonals get the parallel sum S K instead of K, since a stiff contact at one vertex does not hold its neighbours.
 ///
-/// Between cloths contact holds their relative motion alone: what they do together is as soft as without it. Where some rows of
-/// that kind are stiff, the finest level takes all of them, C = W K W^T, as they are, not by diagonal blocks, and another filter
-/// comes after the S of all others: a few sweeps of block Jacobi on them, x -= tau D^-1 C x, with the factors tau for which a
-/// share l that a sweep takes leaves the least energy l F(l)^2 (smoothed aggregation: Vanek, Mandel and Brezina 1996, Computing
-/// 56). Coarser diagonals keep S K of all rows: without it they let layers go far apart, and stiff ones need more iterations.
+/// Between cloths contact holds their relative motion alone: their common motion is as soft as without it. Where some of these
+/// constraints are stiff, the finest level takes all of them, C = W K W^T, exactly, not by diagonal blocks, and another filter
+/// follows the S of all others: a few sweeps of block Jacobi on them, x -= tau D^-1 C x, with the factors tau that minimise the
+/// largest energy l F(l)^2 over the eigenvalues l of D^-1 C (smoothed aggregation: Vanek, Mandel and Brezina 1996, Computing 56).
+/// Coarser diagonals keep S K of all constraints: without it layers move far apart, and stiff constraints need more iterations.
 class Multigrid {
 public:
-    /// The springs of `pattern` in rest positions (m, one a vertex). Everything given is viewed.
+    /// The springs of `pattern` in rest positions (m, one per vertex). All arguments are viewed.
     Multigrid(const Compute& compute, const Adjacency& pattern, std::span<const Vec3> rest);
 
     enum class Coarser { filled, kept };
-    /// Takes the values of a matrix with that pattern; coarser levels may be kept from an earlier one, which is as good a
+    /// Takes the values of a matrix with that pattern; coarser levels may be kept from an earlier matrix, which is as good a
     /// preconditioner where little has changed.
     void fill(const BlockMatrix& matrix, Coarser coarser);
 
@@ -37,14 +37,14 @@ public:
     AlignedVector<float>& residual() { return levels_[0].b; }
     AlignedVector<float>& correction() { return levels_[0].x; }
 
-    /// The same in parts, for a caller who makes each pass over the vectors do as much as it can: `begin` for all ranges, once
-    /// residual() is there in the range; then `correct`; then `finish` for all ranges, after which correction() is there in the
-    /// range. Between `correct` and `finish` no product may come.
+    /// The same in parts, for a caller that fuses its passes over the vectors with them: `begin` for all ranges, once residual()
+    /// is set in the range; then `correct`; then `finish` for all ranges, after which correction() is set in the range. Between
+    /// `correct` and `finish` no product may be computed.
     void begin(Slices range) { begin(0, range); }
     void correct() { correct(0); }
     void finish(Slices range) { finish(0, range); }
 
-    /// y = A x at the finest level, contact rows exact; x and y are 0 at prescribed vertices.
+    /// y = A x at the finest level, contact constraints exact; x and y are 0 at prescribed vertices.
     void multiply(const AlignedVector<float>& x, AlignedVector<float>& y);
     /// The same in parts: `place` for all ranges, then `set_row_forces`, then `product` for all ranges.
     void place(const AlignedVector<float>& x, Slices range) { place(0, x, range); }
@@ -64,7 +64,7 @@ private:
         const float* values = nullptr;
         const float* corners = nullptr;   // of membranes, at the finest level
         AlignedVector<float> own_values;  // of coarser levels
-        AlignedVector<float> blocks;      // eight numbers a pair (six used), one zero block more
+        AlignedVector<float> blocks;      // eight numbers per pair (six used), and one zero block
         AlignedVector<float> ground;      // the mass alone (finest), or six arrays
         AlignedVector<float> inverse;
         AlignedVector<float> x, b, r;
@@ -78,11 +78,11 @@ private:
         std::array<float, 6> filter;   // S
         std::array<float, 6> contact;  // K, kg; applied by the smoother
         std::array<double, 6> ground;  // kg, for the next level
-        int first_row = 0, rows = 0;   // in row_ends_
-        int between = 0;               // of these, the first ones: taken as they are
+        int first_row = 0, rows = 0;   // in constraint_ends_
+        int between = 0;               // the first ones of these, which are taken exactly
     };
-    /// What a contact row does at one vertex: weight * row_force_[row].
-    struct RowEnd {
+    /// The part of a contact constraint at one vertex: weight * constraint_force_[row].
+    struct ConstraintEnd {
         int row;
         float weight;
     };
@@ -94,14 +94,14 @@ private:
     void find_between(const BlockMatrix& matrix);
     void set_held_alone(const BlockMatrix& matrix);
     void set_filters(const BlockMatrix& matrix);
-    void set_contact_rows(const BlockMatrix& matrix);
+    void set_contact_constraints(const BlockMatrix& matrix);
     void expand_blocks(const SpringTerms& springs);
     void expand_stretch(const SpringTerms& springs, int first_pair, int last_pair);
     void fill_level(int k);
     void restrict_ground(int k);
     void restrict_mass();
     void fill_bottom();
-    // Of one range; what they read of other ranges is what an earlier pass wrote.
+    // These work on one range; what they read of other ranges was written by an earlier pass.
     void begin(int k, Slices range);
     void finish(int k, Slices range);
     void hand_down(int k, Slices range);
@@ -113,24 +113,25 @@ private:
     void place(int k, const AlignedVector<float>& x, Slices range);
     void place_vertex(int vertex);
     void multiply_level(int k, const AlignedVector<float>& x, const float* right, AlignedVector<float>& y, Slices range);
-    void transfer(const TransferLists& lists, const AlignedVector<float>& points, FloatVectors to, bool add, Slices range) const;
+    void transfer(const TransferLists& lists, const AlignedVector<float>& points, FloatVec3Arrays to, bool add,
+                  Slices range) const;
     template <class Work>
     void for_filtered(Slices range, Work work);
     template <class Work>
     void for_between(Work work);
-    // Of the finest level as a whole.
-    template <class RowAt>
-    void set_forces(const AlignedVector<float>& x, std::size_t rows, RowAt row_at);
+    // These work on the finest level as a whole.
+    template <class ConstraintAt>
+    void set_forces(const AlignedVector<float>& x, std::size_t rows, ConstraintAt constraint_at);
     void set_between_forces(const AlignedVector<float>& x);
     void sweep_residual();
     void sweep_change();
     void correct(int k);
     void solve_bottom(Level& level);
-    static FloatVectors view(const AlignedVector<float>& data, const Level& level);
+    static FloatVec3Arrays view(const AlignedVector<float>& data, const Level& level);
 
     const Compute& compute_;
     const Adjacency& adjacency_;
-    std::vector<Adjacency::ValuePlace> pair_value_;  // of the finest level: where each pair's block stands
+    std::vector<Adjacency::ValuePlace> pair_value_;  // of the finest level: the place of each pair's block
     AlignedVector<float> guarded_;                   // work space of products with bands
     std::vector<LevelPattern> patterns_;
     std::vector<Level> levels_;
@@ -138,11 +139,11 @@ private:
     std::vector<Filtered> filtered_;               // prescribed vertices first
     std::vector<int> by_vertex_, filter_of_slot_;  // of filtered_: ascending by vertex; of BlockMatrix::contacts_by_vertex
     int prescribed_ = 0;
-    std::vector<RowEnd> row_ends_;
+    std::vector<ConstraintEnd> constraint_ends_;
     std::vector<std::array<double, 6>> held_;  // work space of set_filters
-    std::vector<int> between_rows_;            // rows between cloths, if some of them are stiff
+    std::vector<int> between_constraints_;     // constraints between cloths, if some of them are stiff
     std::vector<int> between_;                 // their vertices in filtered_
-    std::vector<FloatVec> row_force_;          // work space: of what a row acts on last
+    std::vector<FloatVec> constraint_force_;   // work space: of the vector that constraints last acted on
     std::vector<FloatVec> before_;             // x before prolong
     AlignedVector<float> change_;              // of sweeps, sized on first use
     AlignedVector<double> bottom_;

@@ -15,9 +15,9 @@ FloatVec times(const FloatBlock& m, const FloatVec& u) {
             m[2] * u[0] + m[4] * u[1] + m[5] * u[2]};
 }
 
-FloatVec at(const FloatVectors& v, int i) { return {v.data[i], v.data[v.padded + i], v.data[2 * v.padded + i]}; }
+FloatVec at(const FloatVec3Arrays& v, int i) { return {v.data[i], v.data[v.padded + i], v.data[2 * v.padded + i]}; }
 
-void set(const FloatVectors& v, int i, const FloatVec& value) {
+void set(const FloatVec3Arrays& v, int i, const FloatVec& value) {
     for (int axis = 0; axis < 3; ++axis) v.data[axis * v.padded + i] = value[axis];
 }
 
@@ -27,17 +27,17 @@ FloatVec scaled(float factor, const FloatVec& a) { return {factor * a[0], factor
 
 /// 1/l with the roots l of the polynomial F(l), F(0) = 1, for which l F(l)^2 is nowhere above 1/(2 n + 1)^2 in 0 ... 1:
 /// up to its sign T(sqrt l)/((2 n + 1) sqrt l) with the Chebyshev polynomial T of degree 2 n + 1.
-std::array<float, row_sweeps> row_sweep_factors() {
-    std::array<float, row_sweeps> factors;
-    for (int k = 0; k < row_sweeps; ++k) {
-        const double root = std::cos((2 * k + 1) * std::numbers::pi / (2 * (2 * row_sweeps + 1)));
+std::array<float, constraint_sweeps> constraint_sweep_factors() {
+    std::array<float, constraint_sweeps> factors;
+    for (int k = 0; k < constraint_sweeps; ++k) {
+        const double root = std::cos((2 * k + 1) * std::numbers::pi / (2 * (2 * constraint_sweeps + 1)));
         factors[k] = static_cast<float>(1.0 / (root * root));
     }
     return factors;
 }
 
-/// K sum w x of one row.
-FloatVec row_force(const CoupledBlock& row, const FloatVectors& x) {
+/// K sum w x of one constraint.
+FloatVec row_force(const CoupledBlock& row, const FloatVec3Arrays& x) {
     FloatVec u{};
     for (int k = 0; k < 4 && row.vertex[k] >= 0; ++k) u = sum(u, scaled(static_cast<float>(row.weight[k]), at(x, row.vertex[k])));
     FloatBlock block;
@@ -47,11 +47,11 @@ FloatVec row_force(const CoupledBlock& row, const FloatVectors& x) {
 
 }  // namespace
 
-FloatVectors Multigrid::view(const AlignedVector<float>& data, const Level& level) {
+FloatVec3Arrays Multigrid::view(const AlignedVector<float>& data, const Level& level) {
     return {const_cast<float*>(data.data()), level.padded};
 }
 
-/// work(vertex, its number) for the filtered vertices of a range of the finest level.
+/// Calls work(vertex, its number) for the filtered vertices of a range of the finest level.
 template <class Work>
 void Multigrid::for_filtered(Slices range, Work work) {
     const auto vertex = [&](int number) { return filtered_[number].vertex; };
@@ -59,11 +59,11 @@ void Multigrid::for_filtered(Slices range, Work work) {
     for (auto it = first; it != by_vertex_.end() && vertex(*it) < range.last * slice_lanes; ++it) work(filtered_[*it], *it);
 }
 
-/// work(vertex, its number) for all with rows between cloths that are taken as they are, in any order.
+/// Calls work(vertex, its number) for all vertices with constraints between cloths that are taken exactly, in any order.
 template <class Work>
 void Multigrid::for_between(Work work) {
     const int count = static_cast<int>(between_.size());
-    for_stretches(compute_, count, row_grain, count >= least_shared_rows, [&](int first, int last, int) {
+    parallel_for_chunks(compute_, count, constraint_grain, count >= min_shared_constraints, [&](int first, int last, int) {
         for (int k = first; k < last; ++k) work(filtered_[between_[k]], between_[k]);
     });
 }
@@ -108,13 +108,13 @@ void Multigrid::multiply_level(int k, const AlignedVector<float>& x, const float
     compute_.kernels->multiply_float_corners(corners, pass, range);
 }
 
-/// row_force_ of the rows number row_at(0), row_at(1) ...
-template <class RowAt>
-void Multigrid::set_forces(const AlignedVector<float>& x, std::size_t rows, RowAt row_at) {
-    const FloatVectors from = view(x, levels_[0]);
+/// Sets constraint_force_ of the constraints number constraint_at(0), constraint_at(1) ...
+template <class ConstraintAt>
+void Multigrid::set_forces(const AlignedVector<float>& x, std::size_t rows, ConstraintAt constraint_at) {
+    const FloatVec3Arrays from = view(x, levels_[0]);
     const int count = static_cast<int>(rows);
-    for_stretches(compute_, count, row_grain, count >= least_shared_rows, [&](int first, int last, int) {
-        for (int k = first; k < last; ++k) row_force_[row_at(k)] = row_force(contacts_[row_at(k)], from);
+    parallel_for_chunks(compute_, count, constraint_grain, count >= min_shared_constraints, [&](int first, int last, int) {
+        for (int k = first; k < last; ++k) constraint_force_[constraint_at(k)] = row_force(contacts_[constraint_at(k)], from);
     });
 }
 
@@ -122,15 +122,15 @@ void Multigrid::set_row_forces(const AlignedVector<float>& x) {
     set_forces(x, contacts_.size(), [](int k) { return k; });
 }
 
-/// Those of rows between cloths that are taken as they are, alone.
+/// Sets those of constraints between cloths that are taken exactly.
 void Multigrid::set_between_forces(const AlignedVector<float>& x) {
-    set_forces(x, between_rows_.size(), [this](int k) { return between_rows_[k]; });
+    set_forces(x, between_constraints_.size(), [this](int k) { return between_constraints_[k]; });
 }
 
-/// value + factor sum w f over the first rows of a vertex.
+/// value + factor sum w f over the first constraints of a vertex.
 FloatVec Multigrid::add_rows(const Filtered& vertex, int rows, float factor, FloatVec value) const {
     for (int k = vertex.first_row; k < vertex.first_row + rows; ++k) {
-        value = sum(value, scaled(factor * row_ends_[k].weight, row_force_[row_ends_[k].row]));
+        value = sum(value, scaled(factor * constraint_ends_[k].weight, constraint_force_[constraint_ends_[k].row]));
     }
     return value;
 }
@@ -145,7 +145,7 @@ FloatVec Multigrid::by_inverse(int vertex, const FloatVec& u) const {
 
 void Multigrid::product(const AlignedVector<float>& x, AlignedVector<float>& y, Slices range) {
     multiply_level(0, x, nullptr, y, range);
-    const FloatVectors result = view(y, levels_[0]);
+    const FloatVec3Arrays result = view(y, levels_[0]);
     for_filtered(range, [&](const Filtered& vertex, int number) {
         const FloatVec value = add_rows(vertex, vertex.rows, 1.0f, at(result, vertex.vertex));
         set(result, vertex.vertex, number < prescribed_ ? FloatVec{} : value);
@@ -175,23 +175,23 @@ void Multigrid::begin(int k, Slices range) {
     place(k, levels_[k].x, range);
 }
 
-/// r = b - A x; row_force_ is of x where contact between cloths is taken as it is.
+/// r = b - A x; constraint_force_ must be of x where contact between cloths is taken exactly.
 void Multigrid::set_residual(int k, Slices range) {
     Level& level = levels_[k];
     multiply_level(k, level.x, level.b.data(), level.r, range);
     if (k > 0) return;
-    const FloatVectors x = view(level.x, level), r = view(level.r, level);
+    const FloatVec3Arrays x = view(level.x, level), r = view(level.r, level);
     for_filtered(range, [&](const Filtered& vertex, int) {
         const FloatVec rest = difference(at(r, vertex.vertex), times(vertex.contact, at(x, vertex.vertex)));
         set(r, vertex.vertex, vertex.between > 0 ? add_rows(vertex, vertex.between, -1.0f, rest) : rest);
     });
 }
 
-/// The residual, filtered at the finest level, handed to the coarser one.
+/// The residual, filtered at the finest level, is restricted to the coarser one.
 void Multigrid::hand_down(int k, Slices range) {
     Level& level = levels_[k];
     set_residual(k, range);
-    const FloatVectors r = view(level.r, level);
+    const FloatVec3Arrays r = view(level.r, level);
     if (k == 0) {
         for_filtered(range, [&](const Filtered& vertex, int) {
             if (vertex.between == 0) set(r, vertex.vertex, times(vertex.filter, at(r, vertex.vertex)));
@@ -200,15 +200,15 @@ void Multigrid::hand_down(int k, Slices range) {
     compute_.kernels->pack_float_points(r, level.handed.data(), range);
 }
 
-/// Between cloths r -= tau C D^-1 r, sweep by sweep, and then S r, is handed down.
+/// Between cloths r -= tau C D^-1 r, sweep by sweep, and then S r, is restricted.
 void Multigrid::sweep_residual() {
     Level& level = levels_[0];
-    const FloatVectors r = view(level.r, level), change = view(change_, level);
+    const FloatVec3Arrays r = view(level.r, level), change = view(change_, level);
     const auto set_change = [&](const Filtered& vertex, int) {
         set(change, vertex.vertex, by_inverse(vertex.vertex, at(r, vertex.vertex)));
     };
     for_between(set_change);
-    for (const float factor : row_sweep_factors()) {
+    for (const float factor : constraint_sweep_factors()) {
         set_between_forces(change_);
         for_between([&](const Filtered& vertex, int number) {
             set(r, vertex.vertex, add_rows(vertex, vertex.between, -factor, at(r, vertex.vertex)));
@@ -221,7 +221,7 @@ void Multigrid::sweep_residual() {
     });
 }
 
-/// The last sweep; a coarser level hands its x up.
+/// The last sweep; a coarser level prolongs its x.
 void Multigrid::finish(int k, Slices range) {
     Level& level = levels_[k];
     set_residual(k, range);
@@ -232,7 +232,7 @@ void Multigrid::finish(int k, Slices range) {
 /// x += P (coarser x), filtered at the finest level; x in its place.
 void Multigrid::prolong(int k, Slices range) {
     Level& level = levels_[k];
-    const FloatVectors x = view(level.x, level);
+    const FloatVec3Arrays x = view(level.x, level);
     if (k == 0) for_filtered(range, [&](const Filtered& vertex, int number) { before_[number] = at(x, vertex.vertex); });
     transfer(patterns_[k].prolongation, levels_[k + 1].handed, x, true, range);
     if (k == 0) {
@@ -244,14 +244,14 @@ void Multigrid::prolong(int k, Slices range) {
     place(k, level.x, range);
 }
 
-/// Between cloths the change that x has got is swept, too: u -= tau D^-1 C u.
+/// Between cloths the change of x is swept, too: u -= tau D^-1 C u.
 void Multigrid::sweep_change() {
     Level& level = levels_[0];
-    const FloatVectors x = view(level.x, level), change = view(change_, level);
+    const FloatVec3Arrays x = view(level.x, level), change = view(change_, level);
     for_between([&](const Filtered& vertex, int number) {
         set(change, vertex.vertex, difference(at(x, vertex.vertex), before_[number]));
     });
-    for (const float factor : row_sweep_factors()) {
+    for (const float factor : constraint_sweep_factors()) {
         set_between_forces(change_);
         for_between([&](const Filtered& vertex, int) {
             const FloatVec part = by_inverse(vertex.vertex, add_rows(vertex, vertex.between, factor, {}));
@@ -264,21 +264,21 @@ void Multigrid::sweep_change() {
     });
 }
 
-void Multigrid::transfer(const TransferLists& lists, const AlignedVector<float>& points, FloatVectors to, bool add,
+void Multigrid::transfer(const TransferLists& lists, const AlignedVector<float>& points, FloatVec3Arrays to, bool add,
                          Slices range) const {
     compute_.kernels->transfer(
         {.pattern = lists.pattern(), .weights = lists.weight.data(), .points = points.data(), .y = to, .add = add}, range);
 }
 
-/// All of a cycle at level k between its first sweep and its last.
+/// The whole cycle at level k between its first sweep and its last.
 void Multigrid::correct(int k) {
     if (k + 1 == levels()) return;
     Level &level = levels_[k], &coarser = levels_[k + 1];
-    const int least = k == 0 ? least_shared_slices : least_shared_coarse_slices;
+    const int min = k == 0 ? min_shared_slices : min_shared_coarse_slices;
     const bool solves = k + 2 == levels() && bottom_size_ > 0, sweeps = k == 0 && !between_.empty();
     if (sweeps) set_between_forces(level.x);
     for_chunks(
-        compute_, level.slices, [&](Slices range) { hand_down(k, range); }, least);
+        compute_, level.slices, [&](Slices range) { hand_down(k, range); }, min);
     if (sweeps) sweep_residual();
     for_chunks(
         compute_, coarser.slices,
@@ -286,16 +286,16 @@ void Multigrid::correct(int k) {
             transfer(patterns_[k].restriction, level.handed, view(coarser.b, coarser), false, range);
             if (!solves) begin(k + 1, range);
         },
-        least_shared_coarse_slices);
+        min_shared_coarse_slices);
     if (solves) {
         solve_bottom(coarser);
     } else {
         correct(k + 1);
         for_chunks(
-            compute_, coarser.slices, [&](Slices range) { finish(k + 1, range); }, least_shared_coarse_slices);
+            compute_, coarser.slices, [&](Slices range) { finish(k + 1, range); }, min_shared_coarse_slices);
     }
     for_chunks(
-        compute_, level.slices, [&](Slices range) { prolong(k, range); }, least);
+        compute_, level.slices, [&](Slices range) { prolong(k, range); }, min);
     if (!sweeps) return;
     sweep_change();
     set_between_forces(level.x);

@@ -6,8 +6,8 @@
 
 namespace percale {
 
-/// Mass of each vertex, kg: a quarter of each cell a grid vertex touches, a third of each triangle on a free mesh.
-/// `rest` is the rest shape in m, `area_density` in kg/m^2.
+/// Mass of each vertex, kg: a quarter of each cell that contains a grid vertex, a third of each triangle on a free mesh. `rest`
+/// is the rest shape in m, `area_density` in kg/m^2.
 std::vector<double> lumped_masses(const TriangleMesh& mesh, double area_density, const RestShape& shape = {});
 
 }  // namespace percale

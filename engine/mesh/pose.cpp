@@ -15,12 +15,12 @@ Rotation sum(double s, const Rotation& a, double t, const Rotation& b) {
     return {r.w / length, r.x / length, r.y / length, r.z / length};
 }
 
-// (sin((1-f) a) p + sin(f a) q) / sin a with the angle a between p and q; of q and -q, the same turn, the nearer is taken.
+// (sin((1-f) a) p + sin(f a) q) / sin a with the angle a between p and q; of q and -q, the same rotation, the nearer is taken.
 Rotation between(const Rotation& p, const Rotation& q, double f) {
     const double cosine = dot(p, q);
     const double side = cosine < 0.0 ? -1.0 : 1.0;
     const double angle = std::acos(std::min(1.0, std::abs(cosine)));
-    if (angle < least_arc) return sum(1.0 - f, p, side * f, q);
+    if (angle < min_arc) return sum(1.0 - f, p, side * f, q);
     return sum(std::sin((1.0 - f) * angle), p, side * std::sin(f * angle), q);
 }
 
@@ -59,10 +59,10 @@ Rotation product(const Rotation& a, const Rotation& b) {
 
 double angle_between(const Rotation& a, const Rotation& b) { return 2.0 * std::acos(std::min(1.0, std::abs(dot(a, b)))); }
 
-Pose interpolate(const Pose& from, const Pose& to, double share) {
+Pose interpolate(const Pose& from, const Pose& to, double fraction) {
     Pose pose = from;
-    pose.translation += share * (to.translation - from.translation);
-    pose.rotation = between(from.rotation, to.rotation, share);
+    pose.translation += fraction * (to.translation - from.translation);
+    pose.rotation = between(from.rotation, to.rotation, fraction);
     return pose;
 }
 

@@ -128,7 +128,7 @@ void check_rest_shape(const TriangleMesh& mesh, const RestShape& shape, const st
         if (!normal.allFinite()) throw SceneError(name, triangle + "is not finite");
         if (!has_area(a, b, c)) throw SceneError(name, triangle + "has no area");
         const double across = shape.warp.cross(normal).norm();
-        if (shape.warp != Vec3::Zero() && !(across > least_warp_share * shape.warp.norm() * normal.norm()))
+        if (shape.warp != Vec3::Zero() && !(across > min_warp_ratio * shape.warp.norm() * normal.norm()))
             throw SceneError(name, "its warp stands upright on " + triangle);
     }
 }

@@ -90,9 +90,9 @@ TriangleMesh make_grid(double width, double depth, int columns, int rows) {
                                                       std::to_string(width) + " and " + std::to_string(depth));
     require(columns >= 2 && rows >= 2,
             "make_grid: at least 2 vertices each way, got " + std::to_string(columns) + " x " + std::to_string(rows));
-    const int most = std::numeric_limits<int>::max() / 2;  // two triangles a cell have to be counted, too
-    require(columns <= most / rows, "make_grid: " + std::to_string(columns) + " x " + std::to_string(rows) +
-                                        " vertices are more than the " + std::to_string(most) + " that there may be");
+    const int max = std::numeric_limits<int>::max() / 2;  // there are two triangles a cell
+    require(columns <= max / rows, "make_grid: " + std::to_string(columns) + " x " + std::to_string(rows) +
+                                       " vertices are more than the " + std::to_string(max) + " that there may be");
     TriangleMesh mesh;
     mesh.grid_columns = columns;
     mesh.grid_rows = rows;

@@ -13,7 +13,7 @@ std::string edge_text(std::array<int, 2> edge) {
     return "edge (" + std::to_string(edge[0]) + ", " + std::to_string(edge[1]) + ")";
 }
 
-/// Edges as triangles run along them, sorted.
+/// Directed edges of the triangles, sorted.
 std::vector<std::array<int, 2>> directed_edges(std::span<const Triangle> triangles) {
     std::vector<std::array<int, 2>> edges;
     for (const auto& [a, b, c] : triangles) edges.insert(edges.end(), {{a, b}, {b, c}, {c, a}});
@@ -21,7 +21,7 @@ std::vector<std::array<int, 2>> directed_edges(std::span<const Triangle> triangl
     return edges;
 }
 
-/// Of a closed mesh, m^3; its area, m^2.
+/// Volume of a closed mesh, m^3; its area, m^2.
 struct Extent {
     double volume = 0.0, area = 0.0;
 };
@@ -41,7 +41,7 @@ Extent extent_of(const TriangleMesh& mesh) {
 
 bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-    return (b - a).cross(c - a).norm() > least_triangle_area * longest;
+    return (b - a).cross(c - a).norm() > min_triangle_area * longest;
 }
 
 std::vector<MeshEdge> mesh_edges(std::span<const Triangle> triangles) {
@@ -78,11 +78,10 @@ void check_encloses(const TriangleMesh& mesh, const std::string& name, const std
                                    reason);
     }
     const auto [volume, area] = extent_of(mesh);
-    const double least = least_enclosed_share * area * std::sqrt(area);
-    if (volume > least) return;
+    const double min = min_enclosed_ratio * area * std::sqrt(area);
+    if (volume > min) return;
     throw SceneError(
-        name,
-        (volume < -least ? "its triangles are clockwise seen from outside; " : "it is flat and encloses nothing; ") + reason);
+        name, (volume < -min ? "its triangles are clockwise seen from outside; " : "it is flat and encloses nothing; ") + reason);
 }
 
 }  // namespace percale

@@ -23,7 +23,7 @@ void vertex_normals(const NormalMesh& mesh, std::span<Vec3> normals) {
     }
     for (std::size_t i = 0; i < normals.size(); ++i) {
         const double size = normals[i].norm();
-        normals[i] = size > least_normal_share * scale[i] ? Vec3(normals[i] / size) : Vec3(Vec3::Zero());
+        normals[i] = size > min_normal_ratio * scale[i] ? Vec3(normals[i] / size) : Vec3(Vec3::Zero());
     }
 }
 

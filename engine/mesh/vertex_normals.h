@@ -15,8 +15,8 @@ struct NormalMesh {
     const VertexOrder& order;
 };
 
-/// Unit normals of its vertices, in the user's order: sum of (b - a) x (c - a) over the triangles around each. Zero where that is
-/// least_normal_share of the sum of |b - a| |c - a| or less.
+/// Unit normals of its vertices, in the user's order: sum of (b - a) x (c - a) over the triangles around each. Zero where that
+/// is at most min_normal_ratio of the sum of |b - a| |c - a|.
 void vertex_normals(const NormalMesh& mesh, std::span<Vec3> normals);
 
 }  // namespace percale

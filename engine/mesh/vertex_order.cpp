@@ -21,7 +21,7 @@ std::uint64_t interleave(const Cell& cell) {
     return key;
 }
 
-/// How far along the Hilbert curve a cell lies (J. Skilling, "Programming the Hilbert curve", 2004): from the coarsest level
+/// The distance of a cell along the Hilbert curve (J. Skilling, "Programming the Hilbert curve", 2004): from the coarsest level
 /// down, each half cube's reflections and exchanges of axes are undone in all finer levels; the octant numbers then are a Gray
 /// code.
 std::uint64_t curve_key(Cell cell) {

@@ -18,12 +18,13 @@ struct VertexOrder {
     int vertex_at(int at) const { return kept() ? at : vertex[at]; }
 };
 
-/// The numbers of the points in the order in which a Hilbert curve through their bounding cube passes them, told apart to a
-/// millionth of its edge; nearer ones stay in order. At least one point.
+/// The numbers of the points in the order of a Hilbert curve through their bounding cube, with a resolution of a millionth of
+/// its edge; nearer ones stay in order. At least one point.
 std::vector<int> along_curve(std::span<const Vec3> points);
 
-/// Neighbours near each other in memory, and about as many springs at each vertex of a slice, so that slices have little padding:
-/// along a Hilbert curve of the rest positions (m), sorted by `springs`, their number at each vertex, within short stretches.
+/// An order with neighbours near each other in memory, and about as many springs at each vertex of a slice, so that slices have
+/// little padding: along a Hilbert curve of the rest positions (m), sorted by `springs`, their number at each vertex, within
+/// short windows.
 VertexOrder memory_order(std::span<const Vec3> rest, std::span<const int> springs);
 
 }  // namespace percale

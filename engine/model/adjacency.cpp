@@ -44,7 +44,7 @@ Adjacency padding_only(const std::vector<int>& degree, int vertex_count, int spr
     return result;
 }
 
-/// The bands of a network, if few bands hold all springs, each place at most one.
+/// The bands of a network, if few bands hold all springs and each place holds at most one.
 BandPattern find_bands(const SpringNetwork& network, int vertex_count) {
     BandPattern bands;
     std::vector<std::vector<bool>> taken;
@@ -52,7 +52,7 @@ BandPattern find_bands(const SpringNetwork& network, int vertex_count) {
         const int offset = std::abs(network.second[k] - network.first[k]), at = std::min(network.first[k], network.second[k]);
         int* band = std::find(bands.offset, bands.offset + bands.count, offset);
         if (band == bands.offset + bands.count) {
-            if (bands.count == BandPattern::most) return {};
+            if (bands.count == BandPattern::max) return {};
             bands.offset[bands.count++] = offset;
             taken.emplace_back(vertex_count, false);
         }
@@ -60,7 +60,7 @@ BandPattern find_bands(const SpringNetwork& network, int vertex_count) {
         if (*place) return {};
         *place = true;
     }
-    if (network.size() < least_band_filling * bands.count * vertex_count) return {};
+    if (network.size() < min_band_filling * bands.count * vertex_count) return {};
     const int widest = *std::max_element(bands.offset, bands.offset + bands.count);
     bands.guard = static_cast<std::size_t>((widest + slice_lanes - 1) / slice_lanes) * slice_lanes;
     if (bands.guard > longest_band_guard) return {};
@@ -77,7 +77,7 @@ void place_in_bands(const SpringNetwork& network, Adjacency& adjacency) {
     }
 }
 
-/// set(place, spring) for every place of every spring.
+/// Calls set(place, spring) for every place of every spring.
 template <class Set>
 void for_places(const SpringNetwork& network, const Adjacency& adjacency, Set set) {
     if (adjacency.bands.count > 0) {
@@ -187,7 +187,7 @@ std::size_t Adjacency::point_count() const {
     return bands.count > 0 ? 3 * (bands.padded + 2 * bands.guard) : 4 * static_cast<std::size_t>(slices()) * slice_lanes;
 }
 
-void pack_points(const Compute& compute, const Adjacency& adjacency, const Vectors& from, AlignedVector<double>& points) {
+void pack_points(const Compute& compute, const Adjacency& adjacency, const Vec3Arrays& from, AlignedVector<double>& points) {
     prepare_points(adjacency, points);
     for_chunks(compute, from.slices(), [&](Slices range) { place_points(compute, adjacency, from, points, range); });
 }
@@ -203,7 +203,7 @@ void prepare_points(const Adjacency& adjacency, AlignedVector<double>& points) {
     }
 }
 
-void place_points(const Compute& compute, const Adjacency& adjacency, const Vectors& from, AlignedVector<double>& points,
+void place_points(const Compute& compute, const Adjacency& adjacency, const Vec3Arrays& from, AlignedVector<double>& points,
                   Slices range) {
     const BandPattern& bands = adjacency.bands;
     if (bands.count == 0) return compute.kernels->pack_points(from.axes(), points.data(), range);

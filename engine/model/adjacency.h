@@ -7,13 +7,13 @@
 #include "membrane_entries.h"
 #include "spring_network.h"
 #include "support/aligned.h"
-#include "vectors.h"
+#include "vec3_arrays.h"
 
 namespace percale {
 
 /// Which springs meet at each vertex, in slices of slice_lanes vertices padded to the slice's largest number of springs (sliced
 /// ELL). Entry e of lane l of slice s stands at start[s] + e * slice_lanes + l. The order of a vertex's entries is that of the
-/// springs, so sums over them have the same bits however the work is split. Padding refers to the vertex itself and to spring
+/// springs, so sums over them have the same bits however the work is divided. Padding refers to the vertex itself and to spring
 /// number `network.size()`, which does not exist and has no stiffness.
 struct Adjacency {
     int vertex_count = 0;
@@ -36,7 +36,7 @@ struct Adjacency {
     ValuePlace value_place(int k) const;
     /// The entries of a spring at both of its ends, in slices.
     std::array<int, 2> entries_of(const SpringNetwork& network, int k) const;
-    /// What a spring resists with when it alone becomes longer, its triangles included, but hinges left out, N/m.
+    /// The stiffness of a spring that alone becomes longer, its triangles included, but hinges left out, N/m.
     double strength(int k) const;
     /// The size of a vector as kernels want it (pack_points).
     std::size_t point_count() const;
@@ -48,17 +48,17 @@ struct Adjacency {
     }
 };
 
-/// A copy of vectors as the kernels want it for these springs: x y z 0 of every vertex, or with bands three guarded arrays.
-void pack_points(const Compute& compute, const Adjacency& adjacency, const Vectors& from, AlignedVector<double>& points);
+/// A copy of Vec3 arrays as the kernels need it for these springs: x y z 0 of every vertex, or with bands three guarded arrays.
+void pack_points(const Compute& compute, const Adjacency& adjacency, const Vec3Arrays& from, AlignedVector<double>& points);
 /// The same in parts: once for the size and the guards, then range by range.
 void prepare_points(const Adjacency& adjacency, AlignedVector<double>& points);
-void place_points(const Compute& compute, const Adjacency& adjacency, const Vectors& from, AlignedVector<double>& points,
+void place_points(const Compute& compute, const Adjacency& adjacency, const Vec3Arrays& from, AlignedVector<double>& points,
                   Slices range);
 
-/// How the numbers of all springs are laid out.
+/// The layout of the numbers of all springs.
 enum class SpringLayout { best, slices };
 
-/// Takes network.bending anew, of the network that the adjacency was made for.
+/// Copies network.bending again, from the network that the adjacency was made for.
 void copy_bending(const SpringNetwork& network, Adjacency& adjacency);
 
 /// Puts the rest length of one spring, m, into a list that is laid out as adjacency.rest_length.

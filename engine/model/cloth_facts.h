@@ -7,18 +7,18 @@
 
 namespace percale {
 
-/// What is known of one cloth.
+/// Properties of one cloth for the plan.
 struct ClothFacts {
     std::string name = {};
     bool grid = true;
     Fabric fabric = {};
 };
 
-/// What is known of a scene's forces.
+/// Properties of a scene's forces for the plan.
 struct ForceFacts {
     std::span<const ClothFacts> cloths;
     bool wind = false;   // there is air, or there will be
-    bool seams = false;  // there are some
+    bool seams = false;  // there are seams
 };
 
 }  // namespace percale

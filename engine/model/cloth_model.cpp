@@ -10,7 +10,7 @@
 namespace percale {
 namespace {
 
-/// The numbers of a cloth's vertices, put from the user's order into that in memory.
+/// Reorders the numbers of a cloth's vertices from the user's order to that in memory.
 template <class T>
 void put_in_order(const ClothRange& cloth, std::vector<T>& list) {
     const std::vector<T> before(list.begin() + cloth.first, list.end());
@@ -33,7 +33,7 @@ std::vector<Body> make_bodies(const ClothModel& model) {
     return bodies;
 }
 
-/// Of each spring; 0: none.
+/// Strain limit of each spring; 0: none.
 std::vector<double> strain_limits_of(const ClothModel& model) {
     std::vector<double> strain;
     for (const int vertex : model.springs.first) {

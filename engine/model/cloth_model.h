@@ -14,7 +14,7 @@
 #include "sewn_points.h"
 #include "spring_network.h"
 #include "strain_limits.h"
-#include "vectors.h"
+#include "vec3_arrays.h"
 #include "weld.h"
 
 namespace percale {
@@ -29,8 +29,8 @@ struct ClothRange {
     int columns = 0;    // of a grid
     Fabric fabric = {};
     VertexOrder order = {};
-    int first_spring = 0;  // of its own, in the network; seams come behind those of the cloths that were there
-    std::shared_ptr<const RestShape> shape = {};  // m; null: it has no strain as its vertices lie at rest
+    int first_spring = 0;  // its own first one in the network; springs of seams follow those of the cloths that existed then
+    std::shared_ptr<const RestShape> shape = {};  // m; null: the cloth has no strain where its vertices lie at rest
 
     /// The number in the system of a vertex in the user's mesh, and back.
     int index_of(int user_vertex) const { return first + order.place_of(user_vertex); }
@@ -49,7 +49,7 @@ struct ClothModel {
     std::vector<double> mass;         // kg, one a vertex
     std::vector<double> thickness;    // m, one a vertex
     std::vector<Vec3> rest;           // m, positions of the meshes; without strain unless a rest shape says otherwise
-    std::vector<Triangle> triangles;  // in the user's order, whatever that of the vertices
+    std::vector<Triangle> triangles;  // in the user's order, whatever the order of the vertices
     SpringNetwork springs;
     Hinges hinges;
     std::vector<SewnPoint> sewn_points;
@@ -59,12 +59,12 @@ struct ClothModel {
     StrainLimits limits;  // empty where no fabric has one
     std::vector<Body> bodies;
 
-    /// What no explicit scheme takes.
+    /// Whether there are welds or strain limits, which no explicit scheme takes.
     bool has_holds() const { return !welds.empty() || !limits.empty(); }
     int vertex_count() const { return static_cast<int>(mass.size()); }
 };
 
-/// What a model holds with besides its springs: the multipliers, which steps change.
+/// The multipliers of a model's welds and strain limits, which steps change.
 struct Holds {
     std::vector<Vec3> welds;     // N, Weld::hold
     std::vector<double> limits;  // N, LimitedEdge::hold
@@ -72,8 +72,8 @@ struct Holds {
 void copy_holds(const ClothModel& model, Holds& holds);
 void put_holds(const Holds& holds, ClothModel& model);
 
-/// Appends a cloth, its vertices in the user's order; `mesh` in m, world, without strain unless `shape` says where. Throws
-/// SceneError naming `name`. The adjacency is made anew by finish_model.
+/// Appends a cloth, its vertices in the user's order; `mesh` in m, world, without strain unless `shape` gives the rest shape.
+/// Throws SceneError naming `name`. finish_model makes the adjacency anew.
 void append_cloth(ClothModel& model, const TriangleMesh& mesh, const Fabric& fabric, const std::string& name,
                   const RestShape& shape = {});
 /// Puts the vertices of the cloth that was appended last into memory_order, if it is a free mesh; grids keep theirs, in which
@@ -81,11 +81,11 @@ void append_cloth(ClothModel& model, const TriangleMesh& mesh, const Fabric& fab
 void order_last_cloth(ClothModel& model);
 /// Gives the cloth that was appended last hinges of its own, after its order is settled.
 void append_hinges_of_last_cloth(ClothModel& model, double bend_stiffness, const RestShape& shape = {});
-/// All three of these. finish_model has to follow.
+/// Does all three of these. finish_model has to follow.
 void append_whole_cloth(ClothModel& model, const TriangleMesh& mesh, const Fabric& fabric, const std::string& name,
                         const RestShape& shape = {});
 void finish_model(ClothModel& model);
-/// Sets springs.bending: of hinges and of sewn points.
+/// Sets springs.bending, the part of hinges and of sewn points.
 void set_bending(ClothModel& model);
 /// Makes hinges beside clamps stiffer. `free`: 1, or 0 at pinned vertices.
 void set_model_clamps(std::span<const double> free, ClothModel& model);
@@ -97,8 +97,8 @@ int cloth_of(const ClothModel& model, int vertex);
 /// The number of the body that a vertex belongs to.
 int body_of(std::span<const Body> bodies, int vertex);
 
-/// Longest edge of a triangle over its height there at rest, largest of a cloth of moduli on a free mesh: its stiffness across is
-/// by as much larger than along. 0 for other cloth.
+/// Longest edge of a triangle over its height there at rest, the largest in a cloth of moduli on a free mesh: its stiffness
+/// across the edge exceeds that along it by this factor. 0 for other cloth.
 double largest_aspect(const ClothModel& model, const ClothRange& cloth);
 
 }  // namespace percale

@@ -31,7 +31,7 @@ Fabric fabric_of(double area_density, const Moduli& moduli, double bend_stiffnes
     return fabric;
 }
 
-/// With a bending length in m.
+/// A preset with a bending length in m.
 FabricPreset typical_preset(std::string_view name, double area_density, const Moduli& moduli, double bending_length) {
     const double bend_stiffness = area_density * standard_gravity * bending_length * bending_length * bending_length;
     return {name, typical, fabric_of(area_density, moduli, bend_stiffness)};

@@ -27,7 +27,7 @@ Side side_of(const Vec3& a, const Vec3& edge, const Vec3& opposite) {
 double rest_angle(const std::array<Vec3, 4>& x) {
     const Vec3 edge = x[1] - x[0], first = edge.cross(x[2] - x[0]), second = (x[3] - x[0]).cross(edge);
     const double angle = std::atan2(first.cross(second).dot(edge.normalized()), first.dot(second));
-    return std::abs(angle) > least_rest_angle ? angle : 0.0;
+    return std::abs(angle) > min_rest_angle ? angle : 0.0;
 }
 
 /// `x`: the corners without strain, m.

@@ -41,7 +41,7 @@ struct HingeMesh {
     int first_spring;            // of the cloth, in the network
     int first_vertex;
     int columns, rows;  // of a grid; 0 of a free mesh
-    /// m, of every triangle without strain; empty: as the vertices lie at rest.
+    /// m, corners of every triangle without strain; empty: as the vertices lie at rest.
     std::span<const std::array<Vec3, 3>> corners = {};
 };
 
@@ -54,8 +54,8 @@ struct HingeMesh {
 /// Otherwise a hinge at every inner edge, c = B |e|^2/(A0 + A1): exact on equilateral triangles.
 void append_hinges(const HingeMesh& mesh, double bend_stiffness, Hinges& hinges, SpringNetwork& network);
 
-/// Bent over the half segment to a clamp, a fold of which one side is pinned and the other is not is twice as stiff: else the
-/// clamp would lie half a segment inside (first instead of second order). `free`: 1, or 0 at pinned vertices.
+/// Bent over the half segment to a clamp, a fold of which one side is pinned and the other is not is twice as stiff: otherwise
+/// the clamp would lie half a segment inside (first instead of second order). `free`: 1, or 0 at pinned vertices.
 void set_clamps(std::span<const double> free, Hinges& hinges);
 
 /// 1/2 c |u|^2 = 1/2 sum b_ij |x_i - x_j|^2 over pairs, b_ij = -c w_i w_j: sets network.bending, N/m.

@@ -33,7 +33,7 @@ MembraneTriangle membrane_triangle(const ShapedMesh& rest, std::size_t t, const 
     return triangle;
 }
 
-/// The place of the edge between two vertices among mesh_edges.
+/// The index of the edge between two vertices among mesh_edges.
 std::size_t edge_between(const std::vector<MeshEdge>& edges, int a, int b) {
     const std::array<int, 2> key = {std::min(a, b), std::max(a, b)};
     const auto found = std::lower_bound(edges.begin(), edges.end(), key,
@@ -41,7 +41,7 @@ std::size_t edge_between(const std::vector<MeshEdge>& edges, int a, int b) {
     return static_cast<std::size_t>(found - edges.begin());
 }
 
-/// Of every edge, in N/m: what it resists with when it alone becomes longer.
+/// Stiffness of every edge, in N/m, when it alone becomes longer.
 struct EdgeStiffness {
     std::vector<double> triangle_springs, van_gelder;
 };

@@ -18,7 +18,7 @@ namespace percale {
 /// The fabric has moduli.
 Eigen::Matrix3d stress_law(const Fabric& fabric);
 
-/// Whether a fabric with moduli is the same along all directions, to one part in a thousand.
+/// Whether a fabric with moduli is isotropic, to one part in a thousand.
 bool is_isotropic(const Fabric& fabric);
 
 /// A triangle as three springs on squared lengths, s_e = l_e^2 - L_e^2, edge e opposite vertex e: energy 1/2 s.K s. Green's
@@ -34,10 +34,10 @@ struct MembraneTriangle {
 Eigen::Matrix3d triangle_stiffness(const std::array<Eigen::Vector2d, 3>& corner, const Eigen::Matrix3d& law);
 
 /// Appends the edges of a cloth of given moduli as springs, whose vertices start at `first_vertex`, and for triangle springs the
-/// triangles. Edges of triangle springs have stiffness 0 there, only damping; edges of van Gelder springs have
-/// E sum(areas)/length^2 (van Gelder, Journal of Graphics Tools 3, 1998). Warp is along the rows of a grid; on a free mesh
-/// its rest shape says where, or else throws SceneError naming `name` unless the fabric is isotropic. Kinds: structural, but
-/// shear for diagonals of a grid. damping_time refers to the stiffness of an edge alone, 4 L^2 sum(K_ee).
+/// triangles. Edges of triangle springs have stiffness 0 there, only damping; edges of van Gelder springs have E
+/// sum(areas)/length^2 (van Gelder, Journal of Graphics Tools 3, 1998). Warp is along the rows of a grid; on a free mesh its
+/// rest shape gives it, or the fabric must be isotropic; otherwise throws SceneError naming `name`. Kinds: structural, but shear
+/// for diagonals of a grid. damping_time refers to the stiffness of an edge alone, 4 L^2 sum(K_ee).
 void append_membrane(SpringNetwork& network, std::vector<MembraneTriangle>& triangles, const ShapedMesh& rest,
                      const Fabric& fabric, int first_vertex, const std::string& name);
 

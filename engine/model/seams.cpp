@@ -5,7 +5,7 @@
 namespace percale {
 namespace {
 
-/// What of the lengths is left at a time.
+/// The remaining fraction of the lengths at a time.
 double share_left(const Seam& seam, double time) {
     if (time <= seam.from) return 1.0;
     return seam.closes_after(time) ? 1.0 - (time - seam.from) / seam.over : 0.0;
@@ -21,7 +21,7 @@ void append_pair_of(const Stitch& stitch, double stiffness, double length, Sprin
 
 }  // namespace
 
-void append_seam(std::span<const Stitch> stitches, double stiffness, const Vectors& positions, Seam& seam, ClothModel& model) {
+void append_seam(std::span<const Stitch> stitches, double stiffness, const Vec3Arrays& positions, Seam& seam, ClothModel& model) {
     SpringNetwork& network = model.springs;
     seam.first_spring = network.size();
     seam.length.clear();
@@ -30,7 +30,7 @@ void append_seam(std::span<const Stitch> stitches, double stiffness, const Vecto
         const Vec3 gap = stitch_gap(stitch, positions);
         const double length = gap.norm();
         seam.length.push_back(length);
-        // The spring of a point has no stiffness of its own: it joins, and tells the length.
+        // The spring of a point has no stiffness of its own: it joins the vertices, and holds the length.
         append_pair_of(stitch, stitch.joins_vertices() ? stiffness : 0.0, length, network);
     }
     if (seam.first_weld >= 0) {
@@ -52,7 +52,7 @@ void set_seam_lengths(const Seam& seam, double time, std::vector<double>& rest_l
     for (std::size_t k = 0; k < seam.length.size(); ++k) rest_length[seam.first_spring + k] = left * seam.length[k];
 }
 
-double seam_energy(const Seam& seam, double time, const ClothModel& model, const Vectors& positions) {
+double seam_energy(const Seam& seam, double time, const ClothModel& model, const Vec3Arrays& positions) {
     const double left = share_left(seam, time);
     double twice_energy = 0.0;
     for (std::size_t k = 0; k < seam.length.size(); ++k) {

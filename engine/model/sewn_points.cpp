@@ -30,18 +30,18 @@ std::vector<int> sewn_numbers(std::span<const int> cloth_of_vertex, const Spring
 
 }  // namespace
 
-Vec3 stitch_gap(const Stitch& stitch, const Vectors& positions) {
+Vec3 stitch_gap(const Stitch& stitch, const Vec3Arrays& positions) {
     if (stitch.joins_vertices()) return positions.at(stitch.vertex) - positions.at(stitch.other());
     return positions.at(stitch.vertex) -
            ((1.0 - stitch.share) * positions.at(stitch.from) + stitch.share * positions.at(stitch.to));
 }
 
-Vec3 sewn_gap(const SewnPoint& point, const Vectors& positions) {
+Vec3 sewn_gap(const SewnPoint& point, const Vec3Arrays& positions) {
     const auto& [vertex, from, to, share] = point.stitch;
     return positions.at(vertex) - ((1.0 - share) * positions.at(from) + share * positions.at(to));
 }
 
-double sewn_energy(const SewnPoint& point, double length, const Vectors& positions) {
+double sewn_energy(const SewnPoint& point, double length, const Vec3Arrays& positions) {
     return 0.5 * point.stiffness * (sewn_gap(point, positions) - length * point.direction).squaredNorm();
 }
 
@@ -61,11 +61,12 @@ void leave_out_sewn_edges(std::span<const int> cloth_of_vertex, SpringNetwork& s
     if (number.empty()) return;
     const auto sewn = [&](int a, int b) { return a >= 0 && b >= 0 && number[a] == number[b]; };
     for (int k = 0; k < springs.size(); ++k) {
-        const bool of_seam = springs.kind[k] == SpringKind::seam || springs.kind[k] == SpringKind::point;
-        if (!of_seam && sewn(springs.first[k], springs.second[k])) springs.stiffness[k] = springs.damping[k] = 0.0;
+        const bool seam_activation_distance = springs.kind[k] == SpringKind::seam || springs.kind[k] == SpringKind::point;
+        if (!seam_activation_distance && sewn(springs.first[k], springs.second[k]))
+            springs.stiffness[k] = springs.damping[k] = 0.0;
     }
     for (Hinge& hinge : hinges.all) {
-        // Not between the far vertices of a fold, which may lie on each other, nor over the diagonals of a cell.
+        // The far vertices of a fold, which may lie on each other, and the diagonals of a cell are left out.
         const int first = hinge.folds ? 0 : 1, last = 5;
         const bool flattened = std::any_of(hinge_pairs + first, hinge_pairs + last,
                                            [&](const int* pair) { return sewn(hinge.vertex[pair[0]], hinge.vertex[pair[1]]); });

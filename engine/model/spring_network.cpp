@@ -89,7 +89,7 @@ void add_shaped(SpringWriter& writer, const TriangleMesh& mesh, std::span<const 
     }
 }
 
-/// list[from + k] = what stood at number[k].
+/// list[from + k] = the previous element at number[k].
 template <class T>
 void rearrange(std::vector<T>& list, int from, const std::vector<int>& number) {
     const std::vector<T> before(list.begin() + from, list.end());

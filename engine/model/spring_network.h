@@ -10,9 +10,9 @@
 
 namespace percale {
 
-/// hinge: two vertices of a hinge that no spring joins; without stiffness, all it has is `bending`.
-/// seam: sewn together, without a length of its own; where that is to a point between two vertices, all it has is `bending`, as
-/// has `point`, the pair with the second of the two.
+/// hinge: two vertices of a hinge that no spring joins, without stiffness, with `bending` alone. seam: sewn together, without a
+/// length of its own; where a vertex is sewn to a point between two others, the pair has `bending` alone, and so has `point`,
+/// the pair with the second of the two.
 enum class SpringKind : std::uint8_t { structural, shear, bend, hinge, seam, point };
 
 /// All springs of a simulation, a structure of arrays.
@@ -38,7 +38,7 @@ void append_springs(SpringNetwork& network, const ShapedMesh& rest, const Fabric
 /// Appends a pair of vertices without spring.
 void append_pair(int first, int second, SpringNetwork& network);
 
-/// Of the springs from number `from` on: their number at each of the cloth's vertices, which start at `first_vertex`.
+/// For the springs from number `from` on: their number at each of the cloth's vertices, which start at `first_vertex`.
 std::vector<int> springs_at_vertices(const SpringNetwork& network, int from, int first_vertex, int vertex_count);
 
 /// Gives the ends of the springs from number `from` on, those of one cloth whose vertices start at `first_vertex`, the numbers of

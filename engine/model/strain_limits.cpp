@@ -8,7 +8,7 @@
 namespace percale {
 namespace {
 
-double length_of(const LimitedEdge& edge, const SpringNetwork& network, const Vectors& x) {
+double length_of(const LimitedEdge& edge, const SpringNetwork& network, const Vec3Arrays& x) {
     return (x.at(network.first[edge.spring]) - x.at(network.second[edge.spring])).norm();
 }
 
@@ -28,21 +28,21 @@ void StrainLimits::set_hold(LimitedEdge& edge, double hold_now) {
     }
 }
 
-double limit_tension(const LimitedEdge& edge, const SpringNetwork& network, const Vectors& positions) {
+double limit_tension(const LimitedEdge& edge, const SpringNetwork& network, const Vec3Arrays& positions) {
     return std::max(0.0, edge.hold + edge.stiffness * (length_of(edge, network, positions) - edge.length));
 }
 
-double limit_energy(const StrainLimits& limits, const SpringNetwork& network, const Vectors& positions) {
+double limit_energy(const StrainLimits& limits, const SpringNetwork& network, const Vec3Arrays& positions) {
     double energy = 0.0;
     for (const LimitedEdge& edge : limits.edges) energy += energy_of(edge, length_of(edge, network, positions));
     return energy;
 }
 
-double tighten(StrainLimits& limits, const SpringNetwork& network, const Vectors& positions, double share) {
+double tighten(StrainLimits& limits, const SpringNetwork& network, const Vec3Arrays& positions, double fraction) {
     double work = 0.0;
     for (LimitedEdge& edge : limits.edges) {
         const double length = length_of(edge, network, positions);
-        const double hold = std::clamp(edge.hold + share * edge.stiffness * (length - edge.length), 0.0, edge.most_hold);
+        const double hold = std::clamp(edge.hold + fraction * edge.stiffness * (length - edge.length), 0.0, edge.max_hold);
         if (hold == edge.hold) continue;
         const double before = energy_of(edge, length);
         limits.set_hold(edge, hold);
@@ -60,19 +60,19 @@ void set_strain_limits(const SpringNetwork& network, std::span<const double> str
     limits.slack_square.assign(entries, std::numeric_limits<double>::max());
     for (int k = 0; k < network.size(); ++k) {
         if (strain[k] == 0.0 || network.kind[k] != SpringKind::structural) continue;
-        const double own = std::max(adjacency.strength(k), least_limited), rest = network.rest_length[k];
+        const double own = std::max(adjacency.strength(k), min_limited), rest = network.rest_length[k];
         const auto [first, second] = adjacency.entries_of(network, k);
         LimitedEdge edge{.spring = k,
                          .entry = {first, second},
                          .length = (1.0 + strain[k]) * rest,
                          .stiffness = limit_stiffness * own,
-                         .most_hold = most_held_strain * own * rest};
+                         .max_hold = max_held_strain * own * rest};
         for (const int entry : edge.entry) {
             limits.length[entry] = edge.length;
             limits.stiffness[entry] = edge.stiffness;
         }
         const std::size_t number = limits.edges.size();
-        limits.set_hold(edge, number < before.size() ? std::min(before[number].hold, edge.most_hold) : 0.0);
+        limits.set_hold(edge, number < before.size() ? std::min(before[number].hold, edge.max_hold) : 0.0);
         limits.edges.push_back(edge);
     }
 }

@@ -14,7 +14,7 @@ struct MemoryShare {
 constexpr MemoryShare implicit_memory = {1250.0, 375.0};  // with multigrid
 constexpr MemoryShare explicit_memory = {430.0, 98.0};
 constexpr double membrane_triangle_cost = 700.0;
-constexpr double more_stages = 168.0;  // a vertex, of Runge-Kutta
+constexpr double more_stages = 168.0;  // per vertex, of Runge-Kutta
 constexpr double near_cloth_triangle = 270.0;
 constexpr double obstacle_triangle = 475.0;
 

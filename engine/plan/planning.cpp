@@ -40,7 +40,7 @@ SpringCounts count_springs(const SpringNetwork& springs) {
     return counts;
 }
 
-/// All facts but what `automatic` chooses.
+/// All facts except the choices of `automatic`.
 SceneFacts counted_facts(const StepScene& scene, const ClothState& state, const ScriptedChanges& to_come) {
     const ClothModel& model = scene.model;
     SceneFacts facts;
@@ -62,7 +62,7 @@ SceneFacts counted_facts(const StepScene& scene, const ClothState& state, const 
     return facts;
 }
 
-/// Why a scheme was chosen; empty where none was open.
+/// Chooses a scheme and returns the reason; empty where the settings leave no choice.
 std::string choose(const StepScene& scene, const ClothState& state, SceneFacts& facts) {
     if (scene.settings.scheme != Scheme::automatic) return "";
     SchemeChoice choice = choose_scheme(scene, state, facts);

@@ -19,8 +19,8 @@ namespace percale {
 /// Where the vertices of a deforming obstacle's mesh are before its pose, m.
 using Shape = std::shared_ptr<const std::vector<Vec3>>;
 
-/// The mesh of an obstacle that yields. Vertices at one place have one number in its triangles.
-struct YieldingMesh {
+/// The mesh of a compliant obstacle. Vertices at one place have one number in its triangles.
+struct CompliantMesh {
     std::vector<Triangle> triangles;
     std::vector<int> place;  // of each vertex: the first at the same place
     double edge = 0.0;       // m, mean length of the triangles' edges, before the pose
@@ -31,18 +31,18 @@ struct ObstacleState {
     Pose start, end;  // of the coming step
     int triangles = 0;
     double restitution = 0.0;
-    double reach = 0.0;   // m, of its farthest vertex from the mesh's origin, the pose's scale included
+    double reach = 0.0;   // m, distance of its farthest vertex from the mesh's origin, the pose's scale included
     bool settled = true;  // the detector knows that it stays at `start`
 
     Shape start_shape = {}, end_shape = {};  // of the coming step; null: it is rigid
     double shape_travel = 0.0;               // m, largest displacement between them, the pose's scale included
     double end_reach = 0.0;                  // m, `reach` at the end of the step, if it deforms
 
-    std::shared_ptr<const YieldingMesh> yielding = {};  // null: cloth has to go out of its way
-    Shape aim = {};                                     // of one that yields: what end_shape should be
-    std::vector<Vec3> dent = {};                        // m, before the pose: start_shape less what it should be; empty: nothing
-    std::vector<Vec3> next_dent = {};                   // end_shape less aim, during a step
-    double friction = 0.0;                              // as the detector knows it
+    std::shared_ptr<const CompliantMesh> compliant = {};  // null: the obstacle is not compliant
+    Shape aim = {};                                       // of a compliant one: the end shape without deflections
+    std::vector<Vec3> deflection = {};       // m, before the pose: start_shape minus the shape without deflections; empty: zero
+    std::vector<Vec3> next_deflection = {};  // end_shape minus aim, during a step
+    double friction = 0.0;                   // as passed to the detector
 
     bool deforms() const { return start_shape != end_shape; }
     bool moves() const { return start != end || deforms(); }
@@ -59,42 +59,41 @@ struct ObstacleState {
         end_reach = start.scale * std::sqrt(farthest);
         reach = std::max(end_reach, start.scale * std::sqrt(before));
     }
-    /// Sets the shape that it should have at the end of the step.
+    /// Sets the end shape without deflections.
     void aim_at(Shape shape) {
-        if (yielding && aim && *aim == *shape) return;  // dents that rest do so on
-        if (yielding) aim = shape;
+        if (compliant && aim && *aim == *shape) return;  // resting deflections stay
+        if (compliant) aim = shape;
         go_to(std::move(shape));
     }
-    /// It is at the end of its motion. What has given way goes back, unless it stayed as it was.
+    /// Ends its motion. Deflections return, unless the shape stayed as it was.
     void arrive() {
         start = end;
         if (deforms()) reach = end_reach;
         start_shape = end_shape;
         shape_travel = 0.0;
-        const bool same = next_dent == dent;
-        dent = std::move(next_dent);
-        next_dent.clear();
-        if (!dent.empty() && !same) go_to(aim);
+        const bool same = next_deflection == deflection;
+        deflection = std::move(next_deflection);
+        next_deflection.clear();
+        if (!deflection.empty() && !same) go_to(aim);
     }
-    /// Its step failed.
+    /// Undoes its motion after a failed step.
     void stay() {
-        if (yielding) go_to(aim);
-        next_dent.clear();
+        if (compliant) go_to(aim);
+        next_deflection.clear();
     }
 };
 
-/// What the script says about the coming step.
+/// Scripted motion of the coming step.
 struct Script {
     AlignedVector<double> free;  // 1, or 0 where pinned and in the padding
-    Vectors pin_targets;         // m, at the end of the coming step; meaningful where pinned
+    Vec3Arrays pin_targets;      // m, at the end of the coming step; meaningful where pinned
     std::vector<ObstacleState> obstacles;
     std::vector<Seam> seams;
     ClothPairs pairs;  // m, as thicknesses of the model
 };
 
-/// All that is fixed while the spans of a step are solved. Between steps the plan is renewed, with hinges beside pins, and
-/// obstacles arrive. The detector remembers its search; what it answers follows from
-/// what it is told.
+/// All that is fixed while the substeps of a step are solved. Between steps the plan is renewed, with hinges beside pins, and
+/// obstacles arrive. The detector remembers its search; its results follow from its input.
 struct StepScene {
     Compute compute;
     StepSettings settings;

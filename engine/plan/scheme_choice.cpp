@@ -21,8 +21,8 @@ std::string rough_number(double value) {
 }
 
 /// y = -Jq x by central differences of all elastic forces, for |x| = 1.
-void multiply_shapes(const StepScene& scene, const ClothState& state, const Vectors& x, Vectors& y) {
-    const double reach = shape_difference_share * scene.model.springs.rest_length.front();
+void multiply_shapes(const StepScene& scene, const ClothState& state, const Vec3Arrays& x, Vec3Arrays& y) {
+    const double reach = shape_difference_ratio * scene.model.springs.rest_length.front();
     ElasticSpace space;
     ClothState moved = state;
     add_scaled(moved.positions, -reach, x);
@@ -37,16 +37,16 @@ void multiply_shapes(const StepScene& scene, const ClothState& state, const Vect
 }
 
 /// y = K x with the springs' blocks c d d^T, c stiffness or damping.
-void multiply_springs(const ClothModel& model, const Vectors& positions, const std::vector<double>& constant, const Vectors& x,
-                      Vectors& y) {
+void multiply_springs(const ClothModel& model, const Vec3Arrays& positions, const std::vector<double>& constant,
+                      const Vec3Arrays& x, Vec3Arrays& y) {
     const SpringNetwork& springs = model.springs;
     y.resize(model.vertex_count());
     for (int k = 0; k < springs.size(); ++k) {
         const int i = springs.first[k], j = springs.second[k];
-        const Vec3 span = positions.at(i) - positions.at(j);
-        const double length = span.norm();
+        const Vec3 substep = positions.at(i) - positions.at(j);
+        const double length = substep.norm();
         if (length == 0.0) continue;
-        const Vec3 pull = constant[k] * span.dot(x.at(i) - x.at(j)) / (length * length) * span;
+        const Vec3 pull = constant[k] * substep.dot(x.at(i) - x.at(j)) / (length * length) * substep;
         y.add(i, pull);
         y.add(j, -pull);
     }
@@ -56,9 +56,9 @@ void multiply_springs(const ClothModel& model, const Vectors& positions, const s
 template <class Multiply>
 double largest_eigenvalue(const StepScene& scene, Multiply multiply) {
     const int count = scene.model.vertex_count();
-    Vectors x, y;
+    Vec3Arrays x, y;
     x.resize(count);
-    // Neighbours of opposite sign in most places, and no symmetry: rich in what is stiffest.
+    // Start vector: most neighbours have opposite signs, without symmetry, so that it is rich in the stiffest modes.
     for (int i = 0; i < count; ++i) x.set(i, Vec3(std::sin(2.9 * i + 1.0), std::sin(2.3 * i + 2.0), std::sin(2.6 * i + 3.0)));
     double value = 0.0;
     for (int iteration = 0; iteration < power_iterations; ++iteration) {
@@ -76,16 +76,16 @@ double largest_eigenvalue(const StepScene& scene, Multiply multiply) {
 double largest_square(const StepScene& scene, const ClothState& state) {
     const ClothModel& model = scene.model;
     if (!has_shapes(model)) {
-        return largest_eigenvalue(scene, [&](const Vectors& x, Vectors& y) {
+        return largest_eigenvalue(scene, [&](const Vec3Arrays& x, Vec3Arrays& y) {
             multiply_springs(model, state.positions, model.springs.stiffness, x, y);
         });
     }
-    return largest_eigenvalue(scene, [&](const Vectors& x, Vectors& y) { multiply_shapes(scene, state, x, y); });
+    return largest_eigenvalue(scene, [&](const Vec3Arrays& x, Vec3Arrays& y) { multiply_shapes(scene, state, x, y); });
 }
 
 std::string word(Scheme scheme) { return std::string(facts_of(scheme).word); }
 
-/// Cost of a second by an implicit scheme, in evaluations of all springs.
+/// Cost of one second by an implicit scheme, in evaluations of all springs.
 double implicit_cost(const StepScene& scene, const SceneFacts& facts, Scheme scheme, double dt) {
     StepSettings settings = scene.settings;
     settings.scheme = scheme;
@@ -111,7 +111,7 @@ double stable_step(const StepScene& scene, const ClothState& state, Scheme schem
     if (limit == 0.0 || std::isinf(limit)) return limit;
     const double square = largest_square(scene, state);
     if (square == 0.0) return std::numeric_limits<double>::infinity();
-    const double damping = largest_eigenvalue(scene, [&](const Vectors& x, Vectors& y) {
+    const double damping = largest_eigenvalue(scene, [&](const Vec3Arrays& x, Vec3Arrays& y) {
         multiply_springs(scene.model, state.positions, scene.model.springs.damping, x, y);
     });
     return longest_stable_step(scheme, {square, damping});
@@ -123,13 +123,13 @@ SchemeChoice choose_scheme(const StepScene& scene, const ClothState& state, cons
     if (has_contact(scene)) return {implicit, 1, "explicit schemes take no contact"};
     if (!scene.model.welds.empty()) return {implicit, 1, "explicit schemes take no welded seams"};
     if (!scene.model.limits.empty()) return {implicit, 1, "explicit schemes take no strain limit"};
-    const double stable = stable_step_share * stable_step(scene, state, short_steps), dt = scene.settings.time_step;
+    const double stable = stable_step_ratio * stable_step(scene, state, short_steps), dt = scene.settings.time_step;
     const double parts = adaptive ? 1.0 : std::max(1.0, std::ceil(dt / stable));
     const double tries = adaptive ? 3.0 : 1.0;  // a whole step and two halves
     const double length = adaptive ? stable : dt / parts;
     const double explicit_cost = tries * facts_of(short_steps).force_evaluations / length;
     const double other_cost = implicit_cost(scene, facts, implicit, adaptive ? std::min(dt, usual_implicit_step) : dt);
-    const bool cheaper = explicit_cost < other_cost && parts <= most_explicit_parts;
+    const bool cheaper = explicit_cost < other_cost && parts <= max_explicit_parts;
     std::string reason = "a second of " + word(short_steps) + " in steps of " + rough_number(length) + " s costs " +
                          rough_number(explicit_cost) + " evaluations of all springs, one of " + word(implicit) + " " +
                          rough_number(other_cost);
@@ -140,7 +140,7 @@ bool can_be_chosen(const StepScene& scene, Scheme scheme, int parts) {
     const Scheme wish = scene.settings.scheme;
     if (wish != Scheme::automatic) return scheme == wish && parts == 1;
     if (scheme == explicit_choice(scene) && !has_contact(scene) && !scene.model.has_holds())
-        return parts >= 1 && parts <= (scene.settings.adaptive ? 1 : most_explicit_parts);
+        return parts >= 1 && parts <= (scene.settings.adaptive ? 1 : max_explicit_parts);
     return scheme == implicit_choice(scene) && parts == 1;
 }
 
@@ -175,7 +175,7 @@ std::vector<std::string> step_warnings(const StepScene& scene, const ClothState&
     const bool undamped = plan.scheme == Scheme::trapezoid || plan.scheme == Scheme::implicit_midpoint;
     if (undamped && !scene.settings.adaptive) {
         const double stiff = dt * std::sqrt(largest_square(scene, state));
-        if (stiff > most_ringing_phase) {
+        if (stiff > max_ringing_phase) {
             warnings.push_back(step + " is " + rough_number(stiff) +
                                " times the reciprocal of the highest frequency: what is so stiff rings under " +
                                word(plan.scheme) +

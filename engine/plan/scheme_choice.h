@@ -8,14 +8,14 @@
 namespace percale {
 
 /// Estimated longest stable step of a scheme for the cloth as it is now, s: that of an oscillator with the springs' largest
-/// angular frequency and largest damping (percale/stability.h). Infinity for schemes that are always stable, 0 for those that let
-/// what is not damped grow.
+/// angular frequency and largest damping (percale/stability.h). Infinity for schemes that are always stable, 0 for those that
+/// amplify undamped motion.
 double stable_step(const StepScene& scene, const ClothState& state, Scheme scheme);
 
-/// What stands for Scheme::automatic, and why.
+/// The scheme that Scheme::automatic selects, and the reason.
 struct SchemeChoice {
     Scheme scheme = Scheme::backward_euler;
-    int parts = 1;  // equal ones that a step of an explicit scheme is made in
+    int parts = 1;  // equal parts into which an explicit scheme divides a step
     std::string reason = {};
 };
 
@@ -24,11 +24,10 @@ struct SchemeChoice {
 /// contact tr_bdf2 for adaptive steps, backward_euler otherwise and where contact is projected.
 SchemeChoice choose_scheme(const StepScene& scene, const ClothState& state, const SceneFacts& facts);
 
-/// Whether a step of this scene can be made by a scheme in that many parts: as the settings say, or as choose_scheme might have
-/// chosen.
+/// Whether a scheme with that number of parts can make a step of this scene: by the settings, or by a choice of choose_scheme.
 bool can_be_chosen(const StepScene& scene, Scheme scheme, int parts);
 
-/// What the settings will make go wrong or inexact, one sentence each; `stable`: stable_step of the plan's scheme.
+/// Warnings of settings that cause failure or inaccuracy, one sentence each; `stable`: stable_step of the plan's scheme.
 std::vector<std::string> step_warnings(const StepScene& scene, const ClothState& state, const StepPlan& plan, double stable);
 
 }  // namespace percale

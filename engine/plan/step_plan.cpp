@@ -15,7 +15,7 @@ bool meets_cloth(const SceneFacts& facts) {
 
 void add_contacts(const StepPlan& plan, const SceneFacts& facts, std::vector<Skip>& skipped) {
     if (!plan.contacts) {
-        skipped.push_back({"contact detection, rows, cuts and predicted positions",
+        skipped.push_back({"contact detection, contact constraints, clamps and predicted positions",
                            facts.obstacles == 0 ? "the scene has no obstacle" : "the scene has no cloth"});
     }
     for (const ClothFacts& cloth : facts.cloths) {

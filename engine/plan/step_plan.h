@@ -10,37 +10,37 @@
 
 namespace percale {
 
-/// What a step of this scene needs, decided once when the scene changes. Motion alone is known step by step (set_motion).
+/// The needs of a step of this scene, decided once when the scene changes. Only motion is known step by step (set_motion).
 struct StepPlan {
     Scheme scheme = Scheme::backward_euler;
-    int parts = 1;                // equal ones that a step of an explicit scheme is made in
+    int parts = 1;                // equal parts into which an explicit scheme divides a step
     bool implicit = true;         // Newton and a matrix; otherwise an explicit update
     bool free_vertices = true;    // there are vertices that are not pinned
     bool solve = true;            // the coming step: a vertex is free, a pin moves, or contact has to be checked
-    bool contacts = false;        // detector: lists, rows, cuts
+    bool contacts = false;        // detector: lists, constraints, clamps
     bool obstacles_move = false;  // in the coming step
     bool pins_move = false;       // in the coming step
     DampingForm damping = DampingForm::length_rate;
     bool hinges = false;          // some cloth has bending stiffness
     bool wind = false;            // there is air
     bool seams_close = false;     // in the coming step or later
-    bool pins = true;             // a vertex is pinned: targets are compared with places
+    bool pins = true;             // a vertex is pinned: targets are compared with positions
     bool pin_work = false;        // work of pins in the coming step is summed
-    bool still_obstacles = true;  // the detector is told about obstacles that stay where it knows them, too
-    bool gravity_energy = true;   // is measured
+    bool still_obstacles = true;  // obstacles that stay where the detector knows them are passed to it, too
+    bool gravity_energy = true;   // it is measured
     bool keep_work_space = true;  // pattern of the matrix and all sizes stay from step to step
     bool measures = true;         // energy, strain and speed
-    bool ledger = false;          // what becomes of energy
+    bool ledger = false;          // flows of energy
     bool rest = true;             // cloth at rest falls asleep
     bool everything = false;      // nothing is skipped that could be done
 
-    /// In the coming step, from without.
+    /// Whether anything external moves in the coming step.
     bool something_moves() const { return pins_move || obstacles_move || seams_close; }
 
     bool operator==(const StepPlan&) const = default;
 };
 
-/// What the plan is made from.
+/// The facts from which the plan is made.
 struct SceneFacts {
     Scheme chosen = Scheme::backward_euler;  // where the settings leave it open
     int parts = 1;                           // StepPlan::parts
@@ -52,12 +52,12 @@ struct SceneFacts {
     int obstacles = 0;
     long obstacle_triangles = 0;
     bool detector = false;         // there is one, with or without obstacles
-    ScriptedChanges changes = {};  // that are known of
+    ScriptedChanges changes = {};  // known changes
     std::vector<ClothFacts> cloths = {};
     ClothPairs pairs = {};
 };
 
-/// Explicit schemes use velocity damping, whatever the setting says about the implicit ones. Without damping the velocity form is
+/// Explicit schemes use velocity damping, whatever the setting is for the implicit ones. Without damping the velocity form is
 /// planned, too: it is the same force and needs no start lengths.
 StepPlan make_step_plan(const StepSettings& settings, const SceneFacts& facts);
 

@@ -40,7 +40,7 @@ std::array<StageWeight, 3> stage_weights(Scheme scheme) {
         case Scheme::trapezoid:
             return {{{0.5, 0.0}, {}, {0.5, 1.0}}};
         case Scheme::tr_bdf2:
-            return {{{w, 0.0}, {w, trapezoid_share}, {1.0 - 2.0 * w, 1.0}}};
+            return {{{w, 0.0}, {w, trapezoid_fraction}, {1.0 - 2.0 * w, 1.0}}};
         case Scheme::backward_euler:
         case Scheme::bdf2:
             return {{{}, {}, {1.0, 1.0}}};

@@ -9,7 +9,7 @@
 
 namespace percale {
 
-/// What is known of a scheme. Oscillator of angular frequency w, a = w dt.
+/// Properties of a scheme. Oscillator of angular frequency w, a = w dt.
 struct SchemeFacts {
     Scheme scheme;
     std::string_view word;  // as in a scene file
@@ -25,19 +25,19 @@ struct SchemeFacts {
 /// One entry a scheme, in the order of the enum, without `automatic`.
 std::span<const SchemeFacts> scheme_table();
 
-/// Of any scheme but `automatic`.
+/// Facts of any scheme but `automatic`.
 const SchemeFacts& facts_of(Scheme scheme);
 
-/// TR-BDF2 (Bank et al. 1985; Hosea and Shampine 1996): with this share for the trapezoid both stages have the same h.
-constexpr double trapezoid_share = 2.0 - std::numbers::sqrt2;
+/// TR-BDF2 (Bank et al. 1985; Hosea and Shampine 1996): with this fraction for the trapezoid both stages have the same h.
+constexpr double trapezoid_fraction = 2.0 - std::numbers::sqrt2;
 
-/// Where a scheme takes forces: their share, and the time as a part of the span.
+/// Where a scheme evaluates forces: their weight, and the time as a fraction of the substep.
 struct StageWeight {
-    double share = 0.0, place = 1.0;
+    double weight = 0.0, place = 1.0;
 };
 
-/// What a step of the scheme is made of, at its start, between, and last. Explicit schemes keep the rest lengths of seams as in
-/// the middle of the step, which is of second order.
+/// The stages of a step of the scheme, at its start, between, and last. Explicit schemes keep the rest lengths of seams at their
+/// values in the middle of the step, which is of second order.
 std::array<StageWeight, 3> stage_weights(Scheme scheme);
 
 }  // namespace percale

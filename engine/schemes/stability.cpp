@@ -34,7 +34,7 @@ double taylor_limit(int degree, const Oscillator& oscillator) {
     const Complex lambda = eigenvalue(oscillator);
     const double size = std::abs(lambda);
     const auto stable = [&](double dt) { return std::abs(taylor(degree, lambda * dt)) <= 1.0 + growth_rounding; };
-    double inside = least_stable_step / size, outside = inside;
+    double inside = min_stable_step / size, outside = inside;
     while (stable(outside) && outside * size < beyond_stable_step) {
         inside = outside;
         outside *= stable_step_march;

@@ -7,23 +7,23 @@
 
 namespace percale {
 
-/// What Newton's method has come to with a body.
+/// The progress of Newton's method on a body.
 enum class BodyState : char {
     moving,   // the last direction changed it by more than is small
-    small,    // it did not
-    settled,  // it is solved for: it stays where it is while others are solved for
+    small,    // the last direction changed it by little
+    settled,  // it is solved: it stays where it is while others are solved
 };
 
-/// The bodies of a stage. They share linear systems, whose solver is as exact as the largest changes ask. A body that is solved
-/// for already would be stirred up by what that leaves of it.
+/// The bodies of a stage. They share linear systems, whose solver is as exact as the largest changes ask. The error that this
+/// leaves would disturb a body that is already solved.
 class BodyStates {
 public:
-    /// A solve begins: nothing is known.
+    /// A solve begins with all bodies moving.
     void start(const ClothModel& model) { states_.assign(model.bodies.size(), BodyState::moving); }
 
     bool settled(std::size_t body) const { return body < states_.size() && states_[body] == BodyState::settled; }
 
-    /// Whether `is_small(body)` is true for each that is not settled; marks none.
+    /// Whether `is_small(body)` is true for each body that is not settled; marks none.
     template <typename IsSmall>
     bool all_small(const ClothModel& model, const IsSmall& is_small) const {
         for (std::size_t b = 0; b < states_.size(); ++b) {
@@ -32,7 +32,7 @@ public:
         return true;
     }
 
-    /// Calls `is_small(body)` for those that are not settled; whether it was true for each.
+    /// Calls `is_small(body)` for each body that is not settled and marks it; returns whether it was true for all.
     template <typename IsSmall>
     bool mark(const ClothModel& model, const IsSmall& is_small) {
         bool all = true;
@@ -44,11 +44,11 @@ public:
         return all;
     }
 
-    /// The change that was small has been made: these bodies are settled.
+    /// The small changes have been made: these bodies are settled.
     void settle_small();
 
-    /// Bodies that rows join with others are solved for together with them.
-    void release_joined(const ClothModel& model, const ContactRows& rows);
+    /// Releases settled bodies that constraints join with others: they are solved together with these.
+    void release_joined(const ClothModel& model, const ContactConstraints& constraints);
 
 private:
     std::vector<BodyState> states_;

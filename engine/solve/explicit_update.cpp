@@ -6,7 +6,7 @@
 namespace percale {
 namespace {
 
-/// space.forces at a state.
+/// Sets space.forces at a state.
 void evaluate(const ExplicitStep& step, const ClothState& state, ExplicitSpace& space) {
     if (step.wind) {
         set_step_wind(step.scene.model, step.wind->velocity, step.wind->density, state.positions, *step.wind);
@@ -91,12 +91,12 @@ void step_midpoint(const ExplicitStep& step, ExplicitSpace& space, ClothState& s
     add_scaled(state.velocities, step.dt, space.acceleration);
 }
 
-/// A stage of Runge and Kutta's: the weight of its slopes, and how far along them the next one is, s.
+/// A stage of Runge and Kutta: the weight of its slopes, and the distance to the next stage along them, s.
 struct ExplicitStage {
     double weight, ahead;
 };
 
-/// One axis of all that a stage reads and writes.
+/// One axis of all arrays that a stage reads and writes.
 struct StageAxis {
     const double *force, *mobility;  // N; 1/m, 0 where a vertex is prescribed, 1/kg
     double *x0, *v0;                 // at the start of the step, and at its end
@@ -106,12 +106,12 @@ struct StageAxis {
 
 enum class StagePlace { first, between, last };
 
-/// Adds the slopes of a stage to their sums and makes the next one, or the end of the step, in one pass: what is read and written
-/// here would else cost as much as the springs. The first stage is the start itself. Slice by slice, everything read before
-/// anything is written, so that compilers need not fear that arrays overlap.
+/// Adds the slopes of a stage to their sums and makes the next one, or the end of the step, in one pass: separate passes would
+/// cost as much as the springs. The first stage is the start itself. It works slice by slice and reads everything before it
+/// writes, so that compilers need not assume overlapping arrays.
 template <StagePlace place>
 void advance(const StageAxis& axis, const ExplicitStage& stage, double dt, std::size_t padded) {
-    constexpr int lanes = Vectors::lanes;
+    constexpr int lanes = Vec3Arrays::lanes;
     const double weight = stage.weight, ahead = stage.ahead;
     for (std::size_t i = 0; i < padded; i += lanes) {
         double a[lanes], velocity[lanes], x[lanes], v[lanes];
@@ -141,7 +141,7 @@ void advance(const StageAxis& axis, const ExplicitStage& stage, double dt, std::
 template <StagePlace place>
 void make_stage(const ExplicitStep& step, const ExplicitStage& stage, ExplicitSpace& space, ClothState& state) {
     evaluate(step, place == StagePlace::first ? state : space.stage, space);
-    for (const auto axis : {&Vectors::x, &Vectors::y, &Vectors::z}) {
+    for (const auto axis : {&Vec3Arrays::x, &Vec3Arrays::y, &Vec3Arrays::z}) {
         advance<place>({.force = (space.forces.total.*axis).data(),
                         .mobility = space.mobility.data(),
                         .x0 = (state.positions.*axis).data(),
@@ -154,11 +154,11 @@ void make_stage(const ExplicitStep& step, const ExplicitStage& stage, ExplicitSp
     }
 }
 
-/// Memory for the stages and 1/m of free vertices.
+/// Allocates the stages and sets 1/m of free vertices.
 void begin_stages(const ExplicitStep& step, ExplicitSpace& space, const ClothState& state) {
     const int count = step.scene.model.vertex_count();
     const std::size_t padded = state.positions.padded_size();
-    for (Vectors* vectors : {&space.stage.positions, &space.stage.velocities, &space.velocity_sum, &space.acceleration_sum})
+    for (Vec3Arrays* vectors : {&space.stage.positions, &space.stage.velocities, &space.velocity_sum, &space.acceleration_sum})
         if (vectors->padded_size() != padded) vectors->resize(count);
     space.mobility.resize(padded, 0.0);
     const double *mass = step.scene.model.mass.data(), *free = step.scene.script.free.data();

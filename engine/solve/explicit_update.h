@@ -11,7 +11,7 @@ namespace percale {
 /// One explicit step. Prescribed vertices move straight to their targets.
 struct ExplicitStep {
     const StepScene& scene;
-    const Vectors& targets;                    // m, where prescribed vertices are at the end
+    const Vec3Arrays& targets;                 // m, of prescribed vertices at the end
     double dt;                                 // s
     StepWind* wind = nullptr;                  // null: no air; it is set anew at each stage
     std::span<const double> rest_length = {};  // m, ClothState::rest_length in the middle of the step
@@ -21,9 +21,9 @@ struct ExplicitSpace {
     StepSprings springs;
     Forces forces;
     ClothState stage;
-    Vectors acceleration, velocity_sum, acceleration_sum;
+    Vec3Arrays acceleration, velocity_sum, acceleration_sum;
     AlignedVector<double> mobility;  // 1/kg, 0 where prescribed
-    Vectors start_forces;            // N, for the work of pins
+    Vec3Arrays start_forces;         // N, for the work of pins
 };
 
 /// One step of an explicit scheme. Damping by velocity; velocities of free vertices v, accelerations a(q, v) = f/m.

@@ -18,12 +18,12 @@ LineTrial line_from(const StageEquations& equations, bool small) {
     const ImplicitStage& stage = equations.stage();
     const StagePoint& current = equations.space().current;
     LineTrial line{.start_objective = current.objective, .start_slope = slope_at(equations, current)};
-    const bool may_turn = stage.scene.settings.newton_iterations == 1 || current.rows.size() == 0 || is_flat(line);
-    if (!may_turn) line.most_turned = stage.projects() && !small ? most_projected_slope : most_turned_slope;
+    const bool may_turn = stage.scene.settings.newton_iterations == 1 || current.constraints.size() == 0 || is_flat(line);
+    if (!may_turn) line.curvature_constant = stage.projects() && !small ? max_projected_slope : strong_wolfe_constant;
     return line;
 }
 
-/// Forces at space.trial.
+/// Computes the forces at space.trial.
 void evaluate_trial(StageEquations& equations, LineTrial& line) {
     NewtonSpace& space = equations.space();
     equations.evaluate(space.trial);
@@ -31,36 +31,37 @@ void evaluate_trial(StageEquations& equations, LineTrial& line) {
     line.slope = slope_at(equations, space.trial);
 }
 
-/// Whether the whole direction is too long because of rows that were out of reach where it starts: they make most of the slope
+/// Whether the whole direction is too long because of contacts that were out of range at its start: they make most of the slope
 /// at its end.
-bool meets_rows(const StageEquations& equations, const LineTrial& line) {
+bool meets_contacts(const StageEquations& equations, const LineTrial& line) {
     if (!(line.slope > 0.0)) return false;
     const ImplicitStage& stage = equations.stage();
     NewtonSpace& space = equations.space();
     const StagePoint &current = space.current, &trial = space.trial;
-    const RowMove move{trial.rows, trial.row_forces, current.positions, space.direction, stage.base.h, stage.contact_weight};
-    const double slope = foresee_rows(current.contact.blocks, move, space.foreseen);
-    return slope >= foreseen_slope_share * line.slope;
+    const TrialMove move{trial.constraints, trial.constraint_forces, current.positions, space.direction,
+                         stage.base.h,      stage.contact_weight};
+    const double slope = find_trial_contacts(current.contact.blocks, move, space.trial_contacts);
+    return slope >= trial_slope_ratio * line.slope;
 }
 
-/// Whether the whole direction moves no vertex by more than positions are rounded: what is left of the residual is rounding, too.
+/// Whether the whole direction moves no vertex by more than the rounding of positions: the residual is then rounding, too.
 bool moves_nothing(const StageEquations& equations) {
     const NewtonSpace& space = equations.space();
     const int count = equations.stage().scene.model.vertex_count();
-    const auto largest = [&](const Vectors& vectors) {
+    const auto largest = [&](const Vec3Arrays& vectors) {
         return largest_term(equations.stage().scene.compute, 0, count, [&](int i) { return square_at(vectors, i); });
     };
     const double moved = equations.stage().base.h * std::sqrt(largest(space.direction));
     return moved <= position_rounding * std::sqrt(largest(space.current.positions));
 }
 
-/// A clamped matrix is too stiff where cloth buckles or begins to slide: the slope then hardly falls over a full step, and
-/// what the secant says is still missing along the same direction costs an evaluation only.
+/// A clamped matrix is too stiff where cloth buckles or begins to slide: the slope then hardly falls over a full step, and the
+/// secant's extension along the same direction costs only an evaluation.
 bool go_on(StageEquations& equations, LineTrial line) {
     const ImplicitStage& stage = equations.stage();
     const double ratio = line.slope / line.start_slope;
-    if (!(ratio > slope_left_share) || !stage.options.line_search || stage.scene.settings.newton_iterations == 1) return false;
-    const double further = std::min(ratio / std::max(1.0 - ratio, least_secant_fall), longest_secant_step);
+    if (!(ratio > slope_left_ratio) || !stage.options.line_search || stage.scene.settings.newton_iterations == 1) return false;
+    const double further = std::min(ratio / std::max(1.0 - ratio, min_secant_fall), longest_secant_step);
     line.start_objective = line.objective;
     line.start_slope = line.slope;
     equations.aim(further);
@@ -74,9 +75,9 @@ bool go_on(StageEquations& equations, LineTrial line) {
 
 bool accept_trial(double fraction, const LineTrial& trial) {
     if (!std::isfinite(trial.objective) || !std::isfinite(trial.slope)) return false;
-    if (trial.slope > trial.most_turned * std::abs(trial.start_slope)) return false;
+    if (trial.slope > trial.curvature_constant * std::abs(trial.start_slope)) return false;
     const bool gentle = trial.slope <= gentle_slope * std::abs(trial.start_slope);
-    if (trial.objective <= trial.start_objective + armijo_share * fraction * trial.start_slope) return true;
+    if (trial.objective <= trial.start_objective + armijo_constant * fraction * trial.start_slope) return true;
     if (!trial.objective_known) return gentle;
     const bool flat = trial.objective <= trial.start_objective + flat_objective * std::abs(trial.start_objective);
     return flat && gentle;
@@ -85,40 +86,41 @@ bool accept_trial(double fraction, const LineTrial& trial) {
 double shorten(const LineTrial& trial) {
     const double rise = trial.slope - trial.start_slope;
     if (!(rise > 0.0) || !std::isfinite(rise)) return blind_shortening;
-    return std::clamp(-trial.start_slope / rise, least_shortening, most_shortening);
+    return std::clamp(-trial.start_slope / rise, min_shortening, max_shortening);
 }
 
-LineResult search_line(StageEquations& equations, const TimeError& error, bool stop_at_rows) {
+LineResult search_line(StageEquations& equations, const TimeError& error, bool stop_at_contacts) {
     const ImplicitStage& stage = equations.stage();
     NewtonSpace& space = equations.space();
     const bool was_arrived = equations.arrived();
     LineResult result;
     equations.aim(1.0);
     const NewtonChange change = change_to(equations, space.trial.velocities);
-    const double share = allowed_share(stage.scene.settings);
+    const double error_ratio = allowed_error_ratio(stage.scene.settings);
     result.small =
-        space.bodies.mark(stage.scene.model, [&](const Body& body) { return change_is_small(error, change, share, body); });
+        space.bodies.mark(stage.scene.model, [&](const Body& body) { return change_is_small(error, change, error_ratio, body); });
     const bool rounding = result.small && was_arrived && moves_nothing(equations);
     LineTrial line = line_from(equations, result.small);
     double fraction = 1.0, kept = 1.0;
     bool accepted = false;
-    for (int trial = 0; trial < most_line_trials; ++trial) {
+    for (int trial = 0; trial < max_line_trials; ++trial) {
         if (trial > 0) equations.aim(fraction);
         kept = equations.cut();
         evaluate_trial(equations, line);
-        line.objective_known = !space.springs.velocity_damping && space.current.rows.size() + space.trial.rows.size() == 0;
+        line.objective_known =
+            !space.springs.velocity_damping && space.current.constraints.size() + space.trial.constraints.size() == 0;
         // While pins or obstacles are on their way, the objective may have to rise.
         accepted = !stage.options.line_search || !was_arrived || accept_trial(fraction * kept, line);
         if (accepted) break;
-        result.met_rows = trial == 0 && stop_at_rows && kept == 1.0 && meets_rows(equations, line);
-        if (result.met_rows) return result;
+        result.met_contacts = trial == 0 && stop_at_contacts && kept == 1.0 && meets_contacts(equations, line);
+        if (result.met_contacts) return result;
         fraction *= kept * shorten(line);
-        ++result.cuts;
+        ++result.backtracks;
     }
     std::swap(space.current, space.trial);
-    result.whole = fraction * kept == 1.0 && was_arrived;
+    result.full_step = fraction * kept == 1.0 && was_arrived;
     result.stuck = rounding || (!accepted && was_arrived && is_flat(line));
-    if (accepted && result.whole && !result.small) result.went_on = go_on(equations, line);
+    if (accepted && result.full_step && !result.small) result.went_on = go_on(equations, line);
     return result;
 }
 

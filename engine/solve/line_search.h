@@ -7,37 +7,37 @@
 
 namespace percale {
 
-/// Where a line search stands: objective and slope (residual . direction) at its start and at a trial.
+/// The state of a line search: objective and slope (residual . direction) at its start and at a trial.
 struct LineTrial {
     double start_objective = 0.0;  // J
     double start_slope = 0.0;      // J, < 0 for a descent direction
     double objective = 0.0;
     double slope = 0.0;
-    bool objective_known = true;  // false with contact: friction has no potential, rows come and go
-    /// Largest slope beyond the minimum, over the first one's size, whatever the objective says.
-    double most_turned = std::numeric_limits<double>::infinity();
+    bool objective_known = true;  // false with contact: friction has no potential, constraints come and go
+    /// Curvature condition: largest slope beyond the minimum, over the first one's size, whatever the objective is.
+    double curvature_constant = std::numeric_limits<double>::infinity();
 };
 
-/// Whether a trial is good enough: Armijo's rule on the objective, or, where that is flat to rounding or not known, a slope that
-/// has not turned up to 0.9 of the first one's size; never one beyond most_turned.
+/// Whether a trial is good enough: Armijo's rule on the objective, or, where that is flat to rounding or not known, a slope
+/// beyond the minimum of at most 0.9 of the first one's size; never one beyond curvature_constant.
 bool accept_trial(double fraction, const LineTrial& trial);
 
 /// The factor for the next trial: the zero of the slope by the secant, kept within 0.15 ... 0.6.
 double shorten(const LineTrial& trial);
 
-/// What a search along a direction came to; space.current is where it ended.
+/// The result of a search along a direction; space.current is its end point.
 struct LineResult {
-    bool small = false;     // the whole direction changes less than a share of the time error
-    bool whole = false;     // all of it was taken, by pins and obstacles that had arrived
-    bool stuck = false;     // nothing can be gained along it but rounding
-    bool went_on = false;   // beyond it, by the secant: the matrix is not that of this state
-    int cuts = 0;           // trials that were shortened
-    bool met_rows = false;  // nothing was done: the whole of it ends in rows that were in no matrix, now in space.foreseen
+    bool small = false;         // the whole direction changes less than a fraction of the time error
+    bool full_step = false;     // the whole direction was taken, with pins and obstacles already in place
+    bool stuck = false;         // nothing but rounding can be gained along it
+    bool went_on = false;       // went beyond it, by the secant: the matrix is not that of this state
+    int backtracks = 0;         // shortened trials
+    bool met_contacts = false;  // no move: the whole of it ends in trial contacts that were in no matrix, now in the work space
 };
 
-/// Goes from space.current along space.direction: the whole of it, cut where something would cross and shortened until
-/// accept_trial agrees; further by the secant where the slope has hardly fallen. With `stop_at_rows` it may do nothing
-/// (LineResult::met_rows), for another direction to be found.
-LineResult search_line(StageEquations& equations, const TimeError& error, bool stop_at_rows = false);
+/// Moves from space.current along space.direction: a full step, clamped where something would cross and shortened until
+/// accept_trial agrees; prolonged by the secant where the slope has hardly fallen. With `stop_at_contacts` it may make no move
+/// (LineResult::met_contacts), so that another direction can be computed.
+LineResult search_line(StageEquations& equations, const TimeError& error, bool stop_at_contacts = false);
 
 }  // namespace percale

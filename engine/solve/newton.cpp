@@ -6,8 +6,8 @@
 
 #include "direction.h"
 #include "line_search.h"
+#include "local_subsets.h"
 #include "newton_stop.h"
-#include "patches.h"
 #include "stage_equations.h"
 #include "support/deadline.h"
 #include "tolerances.h"
@@ -15,16 +15,16 @@
 namespace percale {
 namespace {
 
-/// Where the search for a motion stands.
+/// The state of the search for a motion.
 struct Search {
-    std::optional<double> first_norm;    // what residuals are relative to, in all rounds of contact correction
+    std::optional<double> first_norm;    // the reference of residuals, in all rounds of contact correction
     double norm = 0.0, last_norm = 0.0;  // of the residual now and one iteration ago, m/s kg^1/2
-    bool matrix_is_old = false;          // the line search went on beyond the point that its matrix led to
+    bool matrix_is_old = false;          // the line search went beyond the point to which the matrix led
     bool line_solved = false;            // the last line searched ended at the solution
 };
 
 /// |r| in velocity units weighted by mass: sqrt(sum |r_i|^2/m_i).
-double residual_norm(const StepScene& scene, const Vectors& residual) {
+double residual_norm(const StepScene& scene, const Vec3Arrays& residual) {
     return std::sqrt(sum_terms(scene.compute, 0, scene.model.vertex_count(),
                                [&](int i) { return square_at(residual, i) / scene.model.mass[i]; }));
 }
@@ -33,7 +33,7 @@ double total_mass(const StepScene& scene) {
     return sum_terms(scene.compute, 0, scene.model.vertex_count(), [&](int i) { return scene.model.mass[i]; });
 }
 
-/// The momentum that gravity gives in a stage, as a norm: what a residual is measured against in a scene that is at rest.
+/// The norm of the momentum that gravity gives in a stage: the reference of residuals in a scene at rest.
 double gravity_norm(const ImplicitStage& stage) {
     return stage.base.h * stage.scene.settings.gravity.norm() * std::sqrt(total_mass(stage.scene));
 }
@@ -45,7 +45,7 @@ void measure_residual(const StageEquations& equations, Search& search, NewtonRep
     report.residual = *search.first_norm == 0.0 ? 0.0 : search.norm / *search.first_norm;
 }
 
-/// Whether another iteration would change little, by what the preconditioner makes of the residual: far cheaper than the
+/// Whether another iteration would change little, estimated by applying the preconditioner to the residual: far cheaper than the
 /// iteration.
 bool next_change_is_small(const StageEquations& equations, const TimeError& error, const Search& search,
                           const NewtonReport& report) {
@@ -53,9 +53,9 @@ bool next_change_is_small(const StageEquations& equations, const TimeError& erro
     if (report.newton_iterations == 0 || by_residual || !equations.arrived() || search.matrix_is_old) return false;
     if (!estimate_direction(equations)) return false;
     const NewtonChange change = change_to(equations, equations.space().current.velocities);
-    const double share = estimate_safety * allowed_share(equations.stage().scene.settings);
-    return equations.space().bodies.all_small(equations.stage().scene.model,
-                                              [&](const Body& body) { return change_is_small(error, change, share, body); });
+    const double error_ratio = estimate_safety * allowed_error_ratio(equations.stage().scene.settings);
+    return equations.space().bodies.all_small(
+        equations.stage().scene.model, [&](const Body& body) { return change_is_small(error, change, error_ratio, body); });
 }
 
 bool meets_tolerance(const StageEquations& equations, const NewtonReport& report) {
@@ -64,10 +64,10 @@ bool meets_tolerance(const StageEquations& equations, const NewtonReport& report
 }
 
 /// Whether the line just searched ended at the solution: it changed little, but not in the first iteration, whose matrix may be
-/// far off; or it can gain nothing but rounding. Of some bodies it may be the solution while others go on.
+/// far off; or it can gain nothing but rounding. It may be the solution for some bodies while others go on.
 bool is_solution(const StageEquations& equations, const Direction& direction, const LineResult& line, int iterations) {
     const bool by_residual = equations.stage().scene.settings.newton_tolerance.has_value();
-    const bool may_settle = line.whole && !line.went_on && direction.exact && !by_residual && iterations > 1;
+    const bool may_settle = line.full_step && !line.went_on && direction.exact && !by_residual && iterations > 1;
     if (may_settle) equations.space().bodies.settle_small();
     return (may_settle && line.small) || line.stuck;
 }
@@ -77,9 +77,9 @@ bool descends(const StageEquations& equations) {
     return dot(equations.stage().scene.compute, space.current.residual, space.direction) < 0.0;
 }
 
-/// Newton's method with the multipliers of contact held constant: from space.current, dv of A dv = -r, then as far along dv as
+/// Newton's method with fixed contact multipliers: from space.current, solves A dv = -r, then moves along dv as far as this
 /// lowers the objective and crosses nothing (Nocedal and Wright, Numerical Optimization, chapters 3 and 7). True once the motion
-/// is solved for; false where it is given up, and at a residual of exactly 0.
+/// is solved; false where it is given up, and at a residual of exactly 0.
 bool find_motion(StageEquations& equations, const TimeError& error, Search& search, NewtonReport& report) {
     const StepSettings& settings = equations.stage().scene.settings;
     NewtonSpace& space = equations.space();
@@ -87,7 +87,7 @@ bool find_motion(StageEquations& equations, const TimeError& error, Search& sear
     bool relaxed = false;
     space.bodies.start(equations.stage().scene.model);
     for (;;) {
-        space.bodies.release_joined(equations.stage().scene.model, space.current.rows);
+        space.bodies.release_joined(equations.stage().scene.model, space.current.constraints);
         measure_residual(equations, search, report);
         if (search.norm == 0.0 || !std::isfinite(search.norm)) return false;
         if (meets_tolerance(equations, report)) return true;
@@ -100,36 +100,36 @@ bool find_motion(StageEquations& equations, const TimeError& error, Search& sear
             return false;
         }
 
-        // Once an iteration: what was reached is looked at anew, but not by a matrix that was filled in for patches.
-        relaxed = !relaxed && report.newton_iterations >= iterations_before_patches && relax_patches(equations, error);
+        // Once an iteration: the result is examined anew, but not by a matrix that was filled in for a subset.
+        relaxed = !relaxed && report.newton_iterations >= iterations_before_subsets && solve_subsets(equations, error);
         search.matrix_is_old = search.matrix_is_old || relaxed;
         if (relaxed) continue;
         const double ratio = report.newton_iterations > 0 ? search.norm / search.last_norm : 1.0;
         const NewtonProgress progress{report.newton_iterations, ratio, report.residual};
-        const Vectors& velocities = space.current.velocities;
+        const Vec3Arrays& velocities = space.current.velocities;
         SolveTarget target = solve_target(error, progress, settings, velocities);
-        target.deadline = later(space.time.deadline, linear_grace_s);  // a solve that was cut off leads astray
+        target.deadline = later(space.time.deadline, linear_grace_s);  // an interrupted solve gives a bad direction
         Direction direction = newton_direction(equations, target);
         const bool may_stop = equations.arrived() && report.newton_iterations + 1 < settings.newton_iterations;
         LineResult line = search_line(equations, error, may_stop);
-        if (line.met_rows) {
+        if (line.met_contacts) {
             ++report.newton_iterations;
             report.linear_iterations += direction.linear_iterations;
             space.first_direction = space.direction;
-            const Direction to_rows = newton_direction(equations, target, &space.foreseen);
-            // Rows out of reach have no part in the residual yet: the way to where they hold the cloth may lead uphill at first.
+            const Direction with_trial_contacts = newton_direction(equations, target, &space.trial_contacts);
+            // Contacts out of range are not in the residual yet: the move to where they hold the cloth may lead uphill.
             if (descends(equations)) {
-                direction = to_rows;
+                direction = with_trial_contacts;
             } else {
                 std::swap(space.direction, space.first_direction);
-                direction.linear_iterations = to_rows.linear_iterations;
+                direction.linear_iterations = with_trial_contacts.linear_iterations;
             }
             line = search_line(equations, error);
         }
 
         ++report.newton_iterations;
         report.linear_iterations += direction.linear_iterations;
-        report.line_search_cuts += line.cuts;
+        report.line_search_cuts += line.backtracks;
         search.last_norm = search.norm;
         search.matrix_is_old = line.went_on;
         search.line_solved = is_solution(equations, direction, line, report.newton_iterations);
@@ -139,15 +139,15 @@ bool find_motion(StageEquations& equations, const TimeError& error, Search& sear
     return search.line_solved;
 }
 
-/// Contact less exact than this, in m, is corrected: a share of the time error h/2 sqrt(sum m |v - v_n|^2/sum m), no finer and
-/// no coarser than shares of the thickness.
-double enough_contact(const ImplicitStage& stage, const TimeError& error, const Vectors& velocities) {
+/// Contact less exact than this, m, is corrected: a fraction of the time error h/2 sqrt(sum m |v - v_n|^2/sum m), within limits
+/// that are fractions of the thickness.
+double enough_contact(const ImplicitStage& stage, const TimeError& error, const Vec3Arrays& velocities) {
     const ClothModel& model = stage.scene.model;
     const double square = squared_error(error, 0, model.vertex_count(), velocities);
     const double time_error = 0.5 * stage.base.h * std::sqrt(square / total_mass(stage.scene));
     const double thickness = *std::min_element(model.thickness.begin(), model.thickness.end());
-    return std::clamp(allowed_share(stage.scene.settings) * time_error, contact_accuracy * thickness,
-                      contact_round_share * thickness);
+    return std::clamp(allowed_error_ratio(stage.scene.settings) * time_error, contact_accuracy * thickness,
+                      contact_round_ratio * thickness);
 }
 
 bool correct_contact(StageEquations& equations, const TimeError& error) {
@@ -155,7 +155,7 @@ bool correct_contact(StageEquations& equations, const TimeError& error) {
     return equations.correct_contact(enough_contact(equations.stage(), error, equations.space().current.velocities));
 }
 
-/// Of a search that was given up, or whose residual is exactly 0.
+/// The end of a search that was given up, or whose residual is exactly 0.
 NewtonEnd end_of(const StageEquations& equations, const Search& search, const NewtonReport& report) {
     if (!std::isfinite(report.residual)) return NewtonEnd::not_finite;
     if (!equations.arrived()) return NewtonEnd::blocked;
@@ -165,7 +165,7 @@ NewtonEnd end_of(const StageEquations& equations, const Search& search, const Ne
     return good ? NewtonEnd::converged : NewtonEnd::iterations_used;
 }
 
-/// Writes space.current to the stage's end, pins exactly to their targets.
+/// Writes space.current to the end of the stage, with pins exactly at their targets.
 void leave(const StageEquations& equations, StageEnd end) {
     const ImplicitStage& stage = equations.stage();
     const StagePoint& point = equations.space().current;
@@ -175,9 +175,9 @@ void leave(const StageEquations& equations, StageEnd end) {
         if (!stage.scene.is_free(i) && equations.arrived()) end.cloth.positions.set(i, stage.targets.at(i));
     }
     if (stage.scene.plan.contacts) {
-        set_grips(point.contact.touches, end.cloth.grips);
+        set_stick_anchors(point.contact.friction_contacts, end.cloth.stick_anchors);
     } else {
-        end.cloth.grips = stage.start.grips;
+        end.cloth.stick_anchors = stage.start.stick_anchors;
         end.cloth.impacts = stage.start.impacts;
     }
     end.cloth.points.resize(stage.start.points.size());
@@ -197,7 +197,7 @@ NewtonReport solve_stage(const ImplicitStage& stage, NewtonSpace& space, StageEn
     NewtonReport report;
     Search search;
     bool solved = find_motion(equations, error, search, report);
-    for (int round = 0; solved && round < most_contact_rounds && correct_contact(equations, error); ++round) {
+    for (int round = 0; solved && round < max_contact_rounds && correct_contact(equations, error); ++round) {
         solved = find_motion(equations, error, search, report);
     }
     if (!solved) report.end = end_of(equations, search, report);

@@ -8,22 +8,23 @@
 namespace percale {
 namespace {
 
-/// Before and after contact is added, so that the factor of all other forces is 1.
+/// Scales the forces before and after contact is added, so that the factor of all other forces is 1.
 void weigh(const Compute& compute, double factor, Forces& forces) {
     if (factor == 1.0) return;
-    Vectors& total = forces.total;
+    Vec3Arrays& total = forces.total;
     set_each(compute, total, total, total, [factor](double force, double) { return force * factor; });
     forces.potential *= factor;
 }
 
 /// to = from + fraction (to - from)
-void shorten(const Compute& compute, const Vectors& from, double fraction, Vectors& to) {
+void shorten(const Compute& compute, const Vec3Arrays& from, double fraction, Vec3Arrays& to) {
     set_each(compute, from, to, to, [fraction](double a, double b) { return a + fraction * (b - a); });
 }
 
 }  // namespace
 
-StageEquations::StageEquations(const ImplicitStage& stage, const ContactMemory& memory, NewtonSpace& space, StageTimes& times)
+StageEquations::StageEquations(const ImplicitStage& stage, const ContactWarmStart& warm_start, NewtonSpace& space,
+                               StageTimes& times)
     : stage_(stage),
       space_(space),
       times_(times),
@@ -37,18 +38,18 @@ StageEquations::StageEquations(const ImplicitStage& stage, const ContactMemory& 
         current.points = stage.start.points;
         space.trial.points.resize(current.points.size());
     }
-    current.fraction = stage.moves_are_scripted() ? stage.span.from : stage.span.to;
+    current.fraction = stage.moves_are_scripted() ? stage.substep.from : stage.substep.to;
     space.frozen_diagonal.padded = 0;
     if (!space.solver.is_for(scene.model)) space.solver.set_model(scene.compute, scene.model, scene.settings.linear_solver);
     space.solver.matrix.free = scene.script.free;
     space.solver.start_stage();
-    if (scene.plan.contacts) law_.begin(memory);
+    if (scene.plan.contacts) law_.begin(warm_start);
     for (auto* vectors : {&space.direction, &space.right_side}) set_zero(scene.compute, *vectors, scene.model.vertex_count());
     space.friction = {.positions = &stage.start.positions,
-                      .fraction = stage.span.from,
-                      .grips = stage.start.grips,
-                      .flows = stage.flows,
-                      .held = &memory.held};
+                      .fraction = stage.substep.from,
+                      .stick_anchors = stage.start.stick_anchors,
+                      .obstacle_motions = stage.obstacle_motions,
+                      .held = &warm_start.held};
     set_step_springs(
         scene.compute,
         {scene.model.adjacency, stage.start.positions, scene.plan.damping, stage.base.h, stage.rest_length, &scene.model.springs},
@@ -59,7 +60,7 @@ void StageEquations::predict() {
     const StepScene& scene = stage_.scene;
     StagePoint& current = space_.current;
     const double h = stage_.base.h, rate = 1.0 / h;
-    // Velocities along the way are (q - q*)/h: what a cut takes from the move is not stored as energy.
+    // Velocities along the path are (q - q*)/h: what a clamp takes from the move is not stored as energy.
     set_each(scene.compute, stage_.start.positions, stage_.base.positions, current.velocities,
              [rate](double start, double base) { return rate * start - rate * base; });
     set_each(scene.compute, stage_.start.velocities, current.velocities, space_.direction,
@@ -71,7 +72,7 @@ void StageEquations::predict() {
     aim(1.0);
     if (scene.plan.contacts) {
         StageTimer timer(times_.refresh);
-        scene.detector->refresh(current.points, space_.trial.points);
+        scene.detector->update_candidates(current.points, space_.trial.points);
     }
     cut();
     std::swap(space_.current, space_.trial);
@@ -83,7 +84,7 @@ void StageEquations::aim(double factor) {
              [factor](double v, double dv) { return v + factor * dv; });
     place(trial);
     const double reached = space_.current.fraction;
-    trial.fraction = factor == 1.0 ? stage_.span.to : reached + factor * (stage_.span.to - reached);
+    trial.fraction = factor == 1.0 ? stage_.substep.to : reached + factor * (stage_.substep.to - reached);
 }
 
 void StageEquations::place(StagePoint& point) const {
@@ -98,13 +99,13 @@ double StageEquations::cut() {
     StageTimer timer(times_.cut);
     const StagePoint& current = space_.current;
     StagePoint& trial = space_.trial;
-    const StepFraction span{current.fraction, trial.fraction};
-    const double kept = stage_.scene.detector->largest_safe_fraction(current.points, trial.points, span);
+    const StepFraction substep{current.fraction, trial.fraction};
+    const double kept = stage_.scene.detector->collision_free_step_size(current.points, trial.points, substep);
     smallest_fraction_ = std::min(smallest_fraction_, kept);
     if (kept >= 1.0) return 1.0;
     shorten(stage_.scene.compute, current.velocities, kept, trial.velocities);
     place(trial);
-    if (stage_.moves_are_scripted()) trial.fraction = current.fraction + kept * (span.to - span.from);
+    if (stage_.moves_are_scripted()) trial.fraction = current.fraction + kept * (substep.to - substep.from);
     return kept;
 }
 
@@ -112,7 +113,7 @@ void StageEquations::evaluate(StagePoint& point) {
     const StepScene& scene = stage_.scene;
     if (scene.plan.contacts) {
         StageTimer timer(times_.evaluate);
-        scene.detector->evaluate(point.points, point.fraction, point.rows);
+        scene.detector->find_contacts(point.points, point.fraction, point.constraints);
     }
     StageTimer timer(times_.force);
     evaluate_forces({.compute = &scene.compute,
@@ -128,9 +129,9 @@ void StageEquations::evaluate(StagePoint& point) {
     if (stage_.wind && stage_.wind->blows) set_vertex_blocks(point.forces.wind.blocks, point.contact);
     if (scene.plan.contacts) {
         add_contact(point);
-    } else {  // what a scene that had contact left
-        point.rows.clear();
-        point.row_forces.clear();
+    } else {  // terms of a scene that had contact before
+        point.constraints.clear();
+        point.constraint_forces.clear();
         point.contact.clear();
     }
     set_residual(point);
@@ -141,7 +142,7 @@ void StageEquations::add_contact(StagePoint& point) {
     if (first) {
         fill_diagonal(space_.solver.matrix, point.forces.spring_terms, space_.frozen_diagonal, space_.frozen_inverse);
         space_.frozen_load = point.forces.total;
-        law_.meet(point.rows);
+        law_.set_constraints(point.constraints);
     }
     weigh(stage_.scene.compute, 1.0 / stage_.contact_weight, point.forces);
     law_.evaluate(contact_point(point, first), contact_forces(point));
@@ -151,7 +152,7 @@ void StageEquations::add_contact(StagePoint& point) {
 
 ContactPoint StageEquations::contact_point(const StagePoint& point, bool first) const {
     const StepScene& scene = stage_.scene;
-    return {.rows = point.rows,
+    return {.constraints = point.constraints,
             .positions = point.positions,
             .velocities = point.velocities,
             .step = {.dt = contact_dt_,
@@ -163,31 +164,32 @@ ContactPoint StageEquations::contact_point(const StagePoint& point, bool first) 
                      .diagonal = &space_.frozen_diagonal,
                      .load = &space_.frozen_load,
                      .friction = &space_.friction,
-                     .previous = first ? nullptr : &space_.current.contact.touches},
-            .obstacles_moved = point.fraction - stage_.span.from};
+                     .previous = first ? nullptr : &space_.current.contact.friction_contacts},
+            .obstacles_moved = point.fraction - stage_.substep.from};
 }
 
 ContactForces StageEquations::contact_forces(StagePoint& point) {
-    return {point.forces.total, point.forces.potential, point.contact, point.row_forces};
+    return {point.forces.total, point.forces.potential, point.contact, point.constraint_forces};
 }
 
 bool StageEquations::correct_contact(double enough) {
     StagePoint& point = space_.current;
-    if (!stage_.scene.plan.contacts || point.rows.size() == 0) return false;
+    if (!stage_.scene.plan.contacts || point.constraints.size() == 0) return false;
     StageTimer timer(times_.force);
     if (!law_.correct(contact_point(point, false), contact_forces(point), enough)) return false;
     set_residual(point);
     return true;
 }
 
-void StageEquations::end_contact(ContactMemory& memory) const {
-    if (stage_.scene.plan.contacts) law_.end(space_.current.rows, space_.current.contact, space_.current.row_forces, memory);
+void StageEquations::end_contact(ContactWarmStart& warm_start) const {
+    if (stage_.scene.plan.contacts)
+        law_.end(space_.current.constraints, space_.current.contact, space_.current.constraint_forces, warm_start);
 }
 
 void StageEquations::set_residual(StagePoint& point) const {
     const StepScene& scene = stage_.scene;
     if (point.residual.padded_size() != point.velocities.padded_size()) point.residual.resize(scene.model.vertex_count());
-    const Vectors &force = point.forces.total, &velocity = point.velocities, &start = stage_.base.velocities;
+    const Vec3Arrays &force = point.forces.total, &velocity = point.velocities, &start = stage_.base.velocities;
     const double *free = scene.script.free.data(), *mass = scene.model.mass.data();
     const int count = scene.model.vertex_count();
     const double dt = stage_.base.h;

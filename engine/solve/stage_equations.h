@@ -5,32 +5,32 @@
 
 namespace percale {
 
-/// The equations of one stage: where velocities lead, what of the way there is free of crossing, which forces act and what they
-/// leave unbalanced. Views the stage and its work space.
+/// The equations of one stage: positions from velocities, the part of a move that is free of crossing, forces, residual and
+/// objective. Views the stage and its work space.
 class StageEquations {
 public:
-    /// The stage begins: springs, friction and contact know where. `space.current` is the start.
-    StageEquations(const ImplicitStage& stage, const ContactMemory& memory, NewtonSpace& space, StageTimes& times);
+    /// Begins the stage with springs, friction and contact. `space.current` is the start.
+    StageEquations(const ImplicitStage& stage, const ContactWarmStart& warm_start, NewtonSpace& space, StageTimes& times);
 
     /// Moves `space.current` along q* + h v_n (without gravity, which would press into contact, and friction would then freeze
-    /// everything), prescribed vertices and obstacles to their ends, cut where something would cross. Evaluates nothing.
+    /// everything), prescribed vertices and obstacles to their ends, clamped where something would cross. Evaluates nothing.
     void predict();
 
-    /// space.trial = current + factor * direction, m/s, cut to what the detector proves free of crossing. Returns the fraction
-    /// of the move that was kept.
+    /// space.trial = current + factor * direction, m/s, clamped to what the detector proves free of crossing. Returns the
+    /// fraction of the move that was kept.
     void aim(double factor);
     double cut();
 
-    /// All forces at a point, its residual and its objective.
+    /// Computes all forces at a point, its residual and its objective.
     void evaluate(StagePoint& point);
 
-    /// The motion is solved for: contact corrects what it holds fixed; false if nothing is left to be solved.
+    /// The motion is solved: contact updates what it holds fixed; false if nothing is left to be solved.
     bool correct_contact(double enough);
 
-    /// The span ends where `space.current` is.
-    void end_contact(ContactMemory& memory) const;
+    /// The substep ends at `space.current`.
+    void end_contact(ContactWarmStart& warm_start) const;
 
-    bool arrived() const { return space_.current.fraction >= stage_.span.to; }
+    bool arrived() const { return space_.current.fraction >= stage_.substep.to; }
     const ImplicitStage& stage() const { return stage_; }
     NewtonSpace& space() const { return space_; }
     StageTimes& times() const { return times_; }
@@ -48,12 +48,12 @@ private:
     NewtonSpace& space_;
     StageTimes& times_;
     ContactLaw& law_;
-    double contact_dt_ = 0.0;         // s, for which weighted contact has the form of a step's
+    double contact_dt_ = 0.0;         // s, for which weighted contact has the form of a step's contact
     double smallest_fraction_ = 1.0;  // of all moves
     double largest_stiffness_ = 0.0;  // N/m, of contact
 };
 
-/// Blocks of single vertices, kg, in front of those of contact, which keeps them there (ContactTerms::others).
+/// Puts blocks of single vertices, kg, in front of those of contact, which keeps them there (ContactTerms::others).
 void set_vertex_blocks(const std::vector<SymmetricBlock>& blocks, ContactTerms& contact);
 
 }  // namespace percale

@@ -9,7 +9,7 @@
 namespace percale {
 namespace {
 
-/// What messages about a start say of places in it.
+/// Names of places in messages about a start.
 class Names {
 public:
     Names(const World& world, std::string_view verb) : world_(world), verb_(verb) {}
@@ -20,7 +20,7 @@ public:
         return "vertex " + std::to_string(range->user_vertex(index)) + " of " + range->name;
     }
 
-    /// As the user numbers vertices, counted through all cloths.
+    /// The user's number of a vertex, counted through all cloths.
     int user_index(int index) const {
         const ClothRange* range = owner(index);
         return range ? range->first + range->user_vertex(index) : index;
@@ -42,7 +42,7 @@ public:
         return "the cloth" + verb_ + "touching " + obstacle_name;
     }
 
-    /// What mends it.
+    /// How to correct the fault.
     std::string advice(const StartFault& fault) const {
         if (!fault.between_cloths()) return "; move the cloth or the obstacle apart";
         const bool same = cloth_triangle(fault.cloth_triangle).first == cloth_triangle(fault.other_cloth_triangle).first;
@@ -91,7 +91,7 @@ int pin_inside(const World& world, const StartFault& fault) {
     return found == fault.inside_vertices.end() ? -1 : *found;
 }
 
-/// Throws StartError, its vertices as the user numbers them.
+/// Throws StartError, its vertices in the user's numbers.
 [[noreturn]] void refuse_start(const Names& names, const std::string& message, StartFault fault) {
     fault.inside_vertex = names.user_index(fault.inside_vertex);
     for (int& vertex : fault.inside_vertices) vertex = names.user_index(vertex);
@@ -99,7 +99,7 @@ int pin_inside(const World& world, const StartFault& fault) {
     throw StartError(message, fault);
 }
 
-/// The detector may know the obstacles from the start of an earlier step only.
+/// The detector may know the obstacles at the start of an earlier step only.
 void place_obstacles(World& world) {
     for (std::size_t k = 0; k < world.scene.script.obstacles.size(); ++k) {
         ObstacleState& obstacle = world.scene.script.obstacles[k];
@@ -107,7 +107,7 @@ void place_obstacles(World& world) {
         ObstacleState there = obstacle;
         there.end = there.start;
         there.end_shape = there.start_shape;
-        tell_obstacle(there, static_cast<int>(k), *world.scene.detector);
+        report_obstacle(there, static_cast<int>(k), *world.scene.detector);
         obstacle.settled = true;
     }
 }
@@ -120,7 +120,7 @@ std::vector<StartMove> clear_start(World& world, std::string_view verb) {
     world.refused = {};
     const StartFault fault = world.scene.detector->check_start(world.state.cloth.points);
     if (!fault.any()) return {};
-    world.refused = {fault.obstacle, fault.inside_vertices};  // unless it can be repaired
+    world.refused = {fault.obstacle, fault.inside_vertices};  // unless resolving penetration succeeds
     const std::string what = names.start_text(fault);
     const std::string advice = names.advice(fault);
     if (const int pin = pin_inside(world, fault); pin >= 0 && !fault.between_cloths()) {

@@ -11,10 +11,10 @@
 namespace percale {
 namespace {
 
-/// What has moved a vertex, if no obstacle.
+/// The cause of a vertex's motion, if no obstacle.
 constexpr int unmoved = -1, moved_by_cloth = -2;
 
-/// What steps change besides positions; put back when relaxing is over.
+/// State that steps change besides positions; restored when relaxing is over.
 class Paused {
 public:
     explicit Paused(World& world)
@@ -30,7 +30,7 @@ public:
         world.scene.settings.adaptive = false;
         world.scene.settings.gravity = Vec3::Zero();
         world.scene.settings.newton_tolerance.reset();
-        world.scene.settings.newton_iterations = 1;  // linearly implicit: a share of the way, at a bounded cost
+        world.scene.settings.newton_iterations = 1;  // linearly implicit: a part of the way, at a bounded cost
         world.scene.script.pin_targets = world.state.cloth.positions;
         for (ObstacleState& obstacle : world.scene.script.obstacles) {
             obstacle.end = obstacle.start;
@@ -43,7 +43,7 @@ public:
         world_.state.time = time_;
         world_.state.time_error = time_error_;
         world_.state.cloth.velocities = velocities_;
-        world_.state.cloth.grips.clear();
+        world_.state.cloth.stick_anchors.clear();
         world_.scene.script.pin_targets = targets_;
         for (std::size_t k = 0; k < obstacles_.size(); ++k) {
             world_.scene.script.obstacles[k].end = obstacles_[k].end;
@@ -60,30 +60,30 @@ private:
     World& world_;
     StepSettings settings_;
     double time_, time_error_;
-    Vectors velocities_, targets_;
+    Vec3Arrays velocities_, targets_;
     std::vector<ObstacleState> obstacles_;
 };
 
 double strain(const World& world) { return largest_strain(world.scene.model.springs, world.state.cloth.positions); }
 
-/// Until no spring is stretched further, or they relax no more.
+/// Relaxes until no spring is stretched beyond `enough`, or they relax no more.
 void relax(World& world, double enough) {
     const Paused paused(world);
-    double now = strain(world), least = now;
-    for (int i = 0, idle = 0; i < most_relaxations && idle < most_idle_relaxations && now > enough; ++i) {
+    double now = strain(world), min = now;
+    for (int i = 0, idle = 0; i < max_relaxations && idle < max_idle_relaxations && now > enough; ++i) {
         for (int v = 0; v < world.scene.model.vertex_count(); ++v) world.state.cloth.velocities.set(v, Vec3::Zero());
-        world.state.time = paused.time() - relaxation_step;  // seams close no further
+        world.state.time = paused.time() - relaxation_step;  // seams do not close meanwhile
         if (!step(world).ok()) return;
         now = strain(world);
-        idle = now < least * (1.0 - relaxed_share) ? 0 : idle + 1;
-        least = std::min(least, now);
+        idle = now < min * (1.0 - relaxed_ratio) ? 0 : idle + 1;
+        min = std::min(min, now);
     }
 }
 
-/// Friction holds on to what did not move.
-void keep_grips(const ClothState& before, ClothState& now) {
-    for (const Grip& grip : before.grips) {
-        if (now.points[grip.vertex] == before.points[grip.vertex]) now.grips.push_back(grip);
+/// Friction keeps its stick anchors at vertices that did not move.
+void keep_stick_anchors(const ClothState& before, ClothState& now) {
+    for (const StickAnchor& stick_anchor : before.stick_anchors) {
+        if (now.points[stick_anchor.vertex] == before.points[stick_anchor.vertex]) now.stick_anchors.push_back(stick_anchor);
     }
 }
 
@@ -100,7 +100,7 @@ StartMove& move_out_of(int obstacle, std::vector<StartMove>& moves) {
     return found != moves.end() ? *found : moves.emplace_back(StartMove{.obstacle = obstacle});
 }
 
-/// What moved of one cloth, by obstacles. What only relaxing moved is told with the first of them.
+/// The moved vertices of one cloth, by obstacles. Vertices that only relaxing moved are reported with the first obstacle.
 std::vector<StartMove> moves_of(const World& world, const ClothRange& cloth, std::span<const Vec3> before,
                                 std::span<const int> cause) {
     std::vector<StartMove> moves;
@@ -109,7 +109,7 @@ std::vector<StartMove> moves_of(const World& world, const ClothRange& cloth, std
     if (first == own.end()) return moves;
     for (int v = cloth.first; v < cloth.first + cloth.count; ++v) {
         const double displacement = (world.state.cloth.points[v] - before[v]).norm();
-        if (displacement <= told_move_share * world.scene.model.thickness[v]) continue;
+        if (displacement <= reported_move_ratio * world.scene.model.thickness[v]) continue;
         StartMove& move = move_out_of(cause[v] != unmoved ? cause[v] : *first, moves);
         ++move.vertices_moved;
         move.largest_move = std::max(move.largest_move, displacement);
@@ -117,7 +117,7 @@ std::vector<StartMove> moves_of(const World& world, const ClothRange& cloth, std
     return moves;
 }
 
-std::vector<StartMove> tell_moves(const World& world, std::span<const Vec3> before, std::span<const int> cause) {
+std::vector<StartMove> report_moves(const World& world, std::span<const Vec3> before, std::span<const int> cause) {
     std::vector<StartMove> all;
     for (std::size_t c = 0; c < world.scene.model.cloths.size(); ++c) {
         for (StartMove& move : moves_of(world, world.scene.model.cloths[c], before, cause)) {
@@ -137,7 +137,7 @@ std::string strain_text(double strain) {
     return text.str();
 }
 
-/// Out of obstacles; false where the detector finds no way.
+/// Moves cloth out of obstacles; false where the detector finds no way.
 bool leave_obstacles(World& world, std::vector<int>& cause) {
     const auto& points = world.state.cloth.points;
     const std::optional<Untangled> out = world.scene.detector->untangle(points, {world.scene.script.free.data(), points.size()});
@@ -149,7 +149,7 @@ bool leave_obstacles(World& world, std::vector<int>& cause) {
     return true;
 }
 
-/// Cloth out of cloth; false where the detector finds no way.
+/// Moves cloth out of cloth; false where the detector finds no way.
 bool leave_cloth(World& world, std::vector<int>& cause) {
     const auto& points = world.state.cloth.points;
     const auto out = world.scene.detector->untangle_cloth(points, {world.scene.script.free.data(), points.size()});
@@ -161,11 +161,11 @@ bool leave_cloth(World& world, std::vector<int>& cause) {
     return true;
 }
 
-/// What each way out leads into is left in turn. Returns why it does not end clear, or nothing; obstacles that a detector thinks
-/// it has left are not left again.
+/// Leaves in turn whatever each way out leads into. Returns why the end is not clear, or an empty text; obstacles that the
+/// detector counts as left are not left again.
 std::string leave_all(World& world, StartFault fault, std::vector<int>& cause) {
     bool left_obstacles = false;
-    for (int turn = 0; turn < most_repair_turns && fault.any(); ++turn) {
+    for (int turn = 0; turn < max_repair_turns && fault.any(); ++turn) {
         if (left_obstacles && !fault.between_cloths()) return "";
         left_obstacles = !fault.between_cloths();
         const bool left = left_obstacles ? leave_obstacles(world, cause) : leave_cloth(world, cause);
@@ -187,14 +187,14 @@ StartRepair repair_start(World& world, StartFault fault) {
     if (repair.obstruction.empty()) {
         relax(world, std::max(good_start_strain, strain_before));
         const double strain_after = strain(world);
-        if (strain_after > std::max(most_start_strain, strain_before))
+        if (strain_after > std::max(max_start_strain, strain_before))
             repair.obstruction = strain_text(strain_after);
         else if (world.scene.detector->check_start(world.state.cloth.points).any())
             repair.obstruction = "no clear way out was found";
     }
     if (repair.obstruction.empty()) {
-        repair.moves = tell_moves(world, before.points, cause);
-        keep_grips(before, world.state.cloth);
+        repair.moves = report_moves(world, before.points, cause);
+        keep_stick_anchors(before, world.state.cloth);
     } else {
         world.state.cloth = before;
     }

@@ -6,10 +6,10 @@
 
 namespace percale {
 
-/// What a world is made of, as checksums: a saved state goes into a world of the same. It does not change from step to step.
+/// Checksums of everything that a world is made of and that no step changes: a saved state goes into a world with the same ones.
 struct Identity {
     std::uint64_t cloth = 0, obstacles = 0, settings = 0;
-    std::uint64_t numbers = 0;  // which of the bodies that were added are there
+    std::uint64_t numbers = 0;  // which of the added bodies still exist
 };
 Identity identity_of(const World& world);
 

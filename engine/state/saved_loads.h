@@ -24,7 +24,7 @@ void exchange(Archive& archive, Value& loads) {
     archive(loads.known, loads.all);
 }
 
-/// Whether each vertex and obstacle there is has at most one, finite and in order.
+/// Whether each pair of an existing vertex and obstacle has at most one load, finite and in order.
 inline bool are_loads_of(const SavedLoads& loads, int vertices, int obstacles) {
     std::pair<int, int> before{-1, -1};
     for (const ContactLoad& load : loads.all) {

@@ -11,31 +11,31 @@
 
 namespace percale {
 
-/// What an obstacle's name is not needed for.
+/// The state of an obstacle without its name.
 struct SavedObstacle {
     Pose start, end;
     bool settled = true;
     std::vector<Vec3> start_shape, end_shape;  // empty: it is rigid; the second, too, where it is the first
-    std::vector<Vec3> dent, aim;
+    std::vector<Vec3> deflection, aim;
 };
 
-/// Forces by row, in the order of their keys.
+/// Contact forces by constraint, in the order of their keys.
 struct SavedContact {
     std::vector<KeyedForce> last, lasting, held;
-    double least_distance = 0.0;
+    double min_distance = 0.0;
 };
 
-/// All of a world that is not its model and its settings, nor made anew in each step.
+/// All of a world except its model, its settings, and what each step makes anew.
 struct SavedWorld {
     bool changed = true, plan_outdated = true;
     std::vector<int> waiting;
-    StepSettings settings;  // time step, gravity and wind of them
-    StepState state;        // but for contact, and without points
+    StepSettings settings;  // only time step, gravity and wind
+    StepState state;        // without contact and points
     SavedContact contact;
     AlignedVector<double> free;
-    Vectors pin_targets;
+    Vec3Arrays pin_targets;
     std::vector<SavedObstacle> obstacles;
-    std::vector<Seam> seams;            // without their stitches, which are the cloth's
+    std::vector<Seam> seams;            // without their stitches, which belong to the cloth
     std::vector<Vec3> sewn_directions;  // of the points sewn to
     Holds holds;
     std::vector<double> clamps;  // of the hinges
@@ -48,14 +48,14 @@ struct SavedWorld {
     std::vector<std::byte> detector;
 };
 
-template <class Archive, OfType<Vectors> Value>
+template <class Archive, OfType<Vec3Arrays> Value>
 void exchange(Archive& archive, Value& vectors) {
     archive(vectors.x, vectors.y, vectors.z);
 }
 
-template <class Archive, OfType<Grip> Value>
-void exchange(Archive& archive, Value& grip) {
-    archive(grip.vertex, grip.obstacle, grip.stretch);
+template <class Archive, OfType<StickAnchor> Value>
+void exchange(Archive& archive, Value& stick_anchor) {
+    archive(stick_anchor.vertex, stick_anchor.obstacle, stick_anchor.stretch);
 }
 
 template <class Archive, OfType<Impact> Value>
@@ -65,12 +65,12 @@ void exchange(Archive& archive, Value& impact) {
 
 template <class Archive, OfType<ClothState> Value>
 void exchange(Archive& archive, Value& state) {
-    archive(state.positions, state.velocities, state.grips, state.impacts, state.rest_length);
+    archive(state.positions, state.velocities, state.stick_anchors, state.impacts, state.rest_length);
 }
 
 template <class Archive, OfType<SavedObstacle> Value>
 void exchange(Archive& archive, Value& obstacle) {
-    archive(obstacle.start, obstacle.end, obstacle.settled, obstacle.start_shape, obstacle.end_shape, obstacle.dent,
+    archive(obstacle.start, obstacle.end, obstacle.settled, obstacle.start_shape, obstacle.end_shape, obstacle.deflection,
             obstacle.aim);
 }
 
@@ -79,14 +79,14 @@ void exchange(Archive& archive, Value& seam) {
     archive(seam.first_spring, seam.length, seam.from, seam.over, seam.first_weld, seam.contact);
 }
 
-/// What plan_again takes over.
+/// The parts of a plan that plan_again takes over.
 template <class Archive, OfType<StepPlan> Value>
 void exchange(Archive& archive, Value& plan) {
     archive.choice(plan.scheme, static_cast<int>(Scheme::automatic));
     archive(plan.parts, plan.obstacles_move, plan.pins_move, plan.seams_close);
 }
 
-/// What a simulation asleep repeats.
+/// The figures that a simulation asleep repeats.
 template <class Archive, OfType<StepReport> Value>
 void exchange(Archive& archive, Value& report) {
     archive(report.dt, report.smallest_dt, report.largest_dt, report.slept, report.sleeping_cloths, report.contacts,
@@ -104,7 +104,7 @@ void exchange(Archive& archive, Value& rest) {
     archive(rest.cloths, rest.anchor, rest.potential, rest.unrest, rest.stopping, rest.asleep, rest.figures);
 }
 
-template <class Archive, OfType<SchemeMemory> Value>
+template <class Archive, OfType<SchemeHistory> Value>
 void exchange(Archive& archive, Value& past) {
     archive(past.earlier, past.earlier_length, past.acceleration, past.unbalanced);
 }
@@ -112,7 +112,7 @@ void exchange(Archive& archive, Value& past) {
 template <class Archive, OfType<StepState> Value>
 void exchange(Archive& archive, Value& state) {
     archive(state.cloth, state.past, state.contact_energy, state.contact_dt, state.time, state.time_error);
-    archive(state.control.length, state.control.left, state.control.share_before, state.control.just_rejected);
+    archive(state.control.length, state.control.left, state.control.error_ratio_before, state.control.just_rejected);
 }
 
 template <class Archive, OfType<KeyedForce> Value>
@@ -122,7 +122,7 @@ void exchange(Archive& archive, Value& row) {
 
 template <class Archive, OfType<SavedContact> Value>
 void exchange(Archive& archive, Value& contact) {
-    archive(contact.last, contact.lasting, contact.held, contact.least_distance);
+    archive(contact.last, contact.lasting, contact.held, contact.min_distance);
 }
 
 template <class Archive, OfType<StartMove> Value>

@@ -31,7 +31,7 @@ std::array<char, name_length> letters(std::string_view name) {
     return result;
 }
 
-/// Over the first seal_length of them.
+/// Writes the seal over the first seal_length bytes.
 void put_seal(const SealKind& kind, std::span<std::byte> bytes) {
     const std::span<const std::byte> content = bytes.subspan(seal_length);
     StateWriter writer;
@@ -54,7 +54,7 @@ bool is_proper(const Pose& pose) {
 
 std::uint64_t checksum(std::span<const std::byte> content) {
     constexpr std::size_t word_length = sizeof(std::uint64_t), lanes = 4;
-    // Each word waits for the one before in its lane alone.
+    // Each word waits for the previous one in its lane only.
     std::array<Hash, lanes> lane;
     const auto add = [&](Hash& hash, std::size_t at, std::size_t count) {
         std::uint64_t word = 0;

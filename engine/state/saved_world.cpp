@@ -10,7 +10,7 @@
 #include "saved_identity.h"
 #include "saved_parts.h"
 #include "state_seal.h"
-#include "step/yielding.h"
+#include "step/compliant_obstacle.h"
 #include "support/hash.h"
 #include "tolerances.h"
 
@@ -18,7 +18,7 @@ namespace percale {
 
 namespace {
 
-/// States of one simulation are of much the same size.
+/// Capacity for the next state: states of one simulation have much the same size.
 std::size_t with_room(std::size_t bytes) { return bytes + bytes / 32 + 64; }
 
 SavedWorld state_of(const World& world, SavedSize& size) {
@@ -29,12 +29,12 @@ SavedWorld state_of(const World& world, SavedSize& size) {
     saved.waiting = world.waiting;
     saved.settings = scene.settings;
     saved.state = world.state;
-    const ContactMemory& contact = world.state.contact;
-    saved.contact = {contact.last.all(), contact.lasting.all(), contact.held.all(), contact.least_distance};
+    const ContactWarmStart& contact = world.state.contact;
+    saved.contact = {contact.last.all(), contact.lasting.all(), contact.held.all(), contact.min_distance};
     saved.free = scene.script.free;
     saved.pin_targets = scene.script.pin_targets;
     for (const ObstacleState& o : scene.script.obstacles) {
-        saved.obstacles.push_back({o.start, o.end, o.settled, {}, {}, o.dent, {}});
+        saved.obstacles.push_back({o.start, o.end, o.settled, {}, {}, o.deflection, {}});
         if (o.aim) saved.obstacles.back().aim = *o.aim;
         if (o.start_shape) saved.obstacles.back().start_shape = *o.start_shape;
         if (o.deforms()) saved.obstacles.back().end_shape = *o.end_shape;
@@ -56,7 +56,7 @@ SavedWorld state_of(const World& world, SavedSize& size) {
     return saved;
 }
 
-/// The checks of a state that was read: whatever bytes say, no step may then reach beyond what there is.
+/// The checks of a state that was read: whatever its bytes are, no later step may access anything out of range.
 class StateCheck {
 public:
     StateCheck(const SavedWorld& saved, const World& world, const StateReader& reader)
@@ -87,16 +87,16 @@ private:
         }
     }
 
-    bool fits(const Vectors& vectors) const {
+    bool fits(const Vec3Arrays& vectors) const {
         const std::size_t padded = world_.state.cloth.positions.padded_size();
         return vectors.x.size() == padded && vectors.y.size() == padded && vectors.z.size() == padded;
     }
-    bool fits_or_empty(const Vectors& vectors) const {
+    bool fits_or_empty(const Vec3Arrays& vectors) const {
         return fits(vectors) || (vectors.x.empty() && vectors.y.empty() && vectors.z.empty());
     }
 
     void check_vectors() const {
-        for (const Vectors* vectors : {&saved_.state.cloth.positions, &saved_.state.cloth.velocities, &saved_.pin_targets}) {
+        for (const Vec3Arrays* vectors : {&saved_.state.cloth.positions, &saved_.state.cloth.velocities, &saved_.pin_targets}) {
             reader_.demand(fits(*vectors), "a wrong number of vertices");
             for (const auto* axis : {&vectors->x, &vectors->y, &vectors->z}) {
                 reader_.demand(std::all_of(axis->begin(), axis->end(), [](double value) { return std::isfinite(value); }),
@@ -105,9 +105,10 @@ private:
         }
         const auto there = [](int index, std::size_t count) { return index >= 0 && static_cast<std::size_t>(index) < count; };
         const std::size_t obstacles = world_.scene.script.obstacles.size();
-        for (const Grip& grip : saved_.state.cloth.grips) {
-            const bool known = there(grip.vertex, world_.scene.model.mass.size()) && there(grip.obstacle, obstacles);
-            reader_.demand(known && grip.stretch.allFinite(), "a grip on nothing");
+        for (const StickAnchor& stick_anchor : saved_.state.cloth.stick_anchors) {
+            const bool known =
+                there(stick_anchor.vertex, world_.scene.model.mass.size()) && there(stick_anchor.obstacle, obstacles);
+            reader_.demand(known && stick_anchor.stretch.allFinite(), "a stick anchor on nothing");
         }
         for (const Impact& impact : saved_.state.cloth.impacts) {
             const bool known = there(impact.vertex, world_.scene.model.mass.size()) &&
@@ -137,7 +138,7 @@ private:
             const std::size_t vertices = b.start_shape ? b.start_shape->size() : 0;
             const bool whole =
                 std::ranges::all_of(a.start_shape, &Vec3::allFinite) && std::ranges::all_of(a.end_shape, &Vec3::allFinite);
-            return whole && are_dents_of(b, a.dent, a.aim) && a.start_shape.size() == vertices &&
+            return whole && are_deflections_of(b, a.deflection, a.aim) && a.start_shape.size() == vertices &&
                    (a.end_shape.empty() || a.end_shape.size() == vertices);
         };
         reader_.demand(std::ranges::equal(saved_.obstacles, world_.scene.script.obstacles, same_shape),
@@ -171,7 +172,7 @@ private:
         reader_.demand(saved_.plan_outdated || can_be_chosen(world_.scene, plan.scheme, plan.parts), "a scheme of another kind");
         const auto& [first, in_use] = saved_.solver;
         reader_.demand(first != LinearSolver::automatic && in_use != LinearSolver::automatic, "a linear solver that is none");
-        reader_.demand(saved_.contact.least_distance >= 0.0 && saved_.contact.least_distance <= 1.0, "a distance out of range");
+        reader_.demand(saved_.contact.min_distance >= 0.0 && saved_.contact.min_distance <= 1.0, "a distance out of range");
         for (const auto* forces : {&saved_.contact.last, &saved_.contact.lasting, &saved_.contact.held}) {
             const auto twice = std::ranges::adjacent_find(*forces, std::ranges::greater_equal{}, &KeyedForce::key);
             reader_.demand(twice == forces->end(), "a contact force twice");
@@ -181,22 +182,22 @@ private:
     void check_rest() const {
         const RestState& rest = saved_.rest;
         reader_.demand(fits_or_empty(rest.anchor), "a wrong number of vertices");
-        reader_.demand(rest.unrest >= 0 && rest.unrest <= most_unrest && rest.stopping <= stopping_time, "unrest out of range");
+        reader_.demand(rest.unrest >= 0 && rest.unrest <= max_unrest && rest.stopping <= stopping_time, "unrest out of range");
         reader_.demand(rest.cloths.empty() || (rest.cloths.size() == world_.scene.model.cloths.size() && fits(rest.anchor)),
                        "a wrong number of cloths");
     }
 
     void check_past() const {
-        const SchemeMemory& past = saved_.state.past;
+        const SchemeHistory& past = saved_.state.past;
         const bool known = past.earlier_length > 0.0;
         reader_.demand(known || past.earlier_length == 0.0, "a negative time step");
-        for (const Vectors* vectors : {&past.earlier.positions, &past.earlier.velocities, &past.acceleration}) {
+        for (const Vec3Arrays* vectors : {&past.earlier.positions, &past.earlier.velocities, &past.acceleration}) {
             reader_.demand(known ? fits(*vectors) : fits_or_empty(*vectors), "a wrong number of vertices");
         }
         reader_.demand(fits_or_empty(past.unbalanced), "a wrong number of vertices");
         const StepControl& control = saved_.state.control;
         reader_.demand(control.length == 0.0 || control.length >= shortest_step, "a time step too short");
-        reader_.demand(control.left >= 0.0 && control.share_before >= 0.0, "an error below 0");
+        reader_.demand(control.left >= 0.0 && control.error_ratio_before >= 0.0, "an error below 0");
     }
 
     const SavedWorld& saved_;
@@ -209,8 +210,8 @@ void put_shape(SavedObstacle&& saved, ObstacleState& obstacle) {
     const auto shared = [](std::vector<Vec3>& shape) { return std::make_shared<const std::vector<Vec3>>(std::move(shape)); };
     obstacle.start_shape = shared(saved.start_shape);
     obstacle.go_to(saved.end_shape.empty() ? obstacle.start_shape : shared(saved.end_shape));
-    obstacle.dent = std::move(saved.dent);
-    if (obstacle.yielding) obstacle.aim = shared(saved.aim);
+    obstacle.deflection = std::move(saved.deflection);
+    if (obstacle.compliant) obstacle.aim = shared(saved.aim);
 }
 
 void put_script(SavedWorld& saved, Script& script) {
@@ -227,7 +228,7 @@ void put_script(SavedWorld& saved, Script& script) {
     script.seams = std::move(saved.seams);
 }
 
-/// Hinges beside pins, and seams.
+/// Restores hinges beside pins, and seams.
 void put_model(const SavedWorld& saved, ClothModel& model) {
     for (std::size_t k = 0; k < saved.clamps.size(); ++k) model.hinges.all[k].clamp = saved.clamps[k];
     for (std::size_t k = 0; k < saved.sewn_directions.size(); ++k) model.sewn_points[k].direction = saved.sewn_directions[k];
@@ -236,7 +237,7 @@ void put_model(const SavedWorld& saved, ClothModel& model) {
     copy_bending(model.springs, model.adjacency);
 }
 
-/// What the solver has made of the model's shape stays: no stage depends on it, and it is dear.
+/// The solver's data on the structure of the model stay: no stage depends on them, and they are expensive.
 void put_solver(const SavedWorld& saved, const StepScene& scene, NewtonSpace& newton) {
     StepSolver solver = std::move(newton.solver);
     newton = NewtonSpace{};
@@ -264,13 +265,13 @@ void put_state(SavedWorld& saved, World& world) {
     world.state.contact.last.set(saved.contact.last);
     world.state.contact.lasting.set(saved.contact.lasting);
     world.state.contact.held.set(saved.contact.held);
-    world.state.contact.least_distance = saved.contact.least_distance;
+    world.state.contact.min_distance = saved.contact.min_distance;
     world.rest = std::move(saved.rest);
     world.load_source = saved.loads.known ? LoadSource::saved_state : LoadSource::nowhere;
     world.saved_loads = std::move(saved.loads.all);
 }
 
-/// The detector holds only cloth that does not wait against cloth. Where it refuses the state it is as it was.
+/// The detector holds only cloth that does not wait against cloth. If it refuses the state, it is unchanged.
 void restore_detector(const SavedWorld& saved, World& world) {
     ContactDetector& detector = *world.scene.detector;
     StateReader reader(saved.detector);
@@ -303,7 +304,7 @@ std::vector<std::byte> saved_world(const World& world, const std::vector<StartMo
     StateWriter writer = begin_sealed(with_room(size.whole));
     writer(identity.numbers, identity.cloth, identity.obstacles, identity.settings, saved);
     std::vector<std::byte> bytes = end_sealed(state_seal, writer);
-    if (bytes.capacity() > with_room(bytes.size())) bytes.shrink_to_fit();  // hosts hold many
+    if (bytes.capacity() > with_room(bytes.size())) bytes.shrink_to_fit();  // hosts hold many states
     size.whole = bytes.size();
     return bytes;
 }

@@ -9,17 +9,18 @@
 
 namespace percale {
 
-/// Bytes that saved states take, for which memory is asked for at once.
+/// Expected size of saved states in bytes, for which memory is allocated at once.
 struct SavedSize {
     std::size_t whole = 0, detector = 0;
 };
 
-/// All that the coming steps depend on, sealed (percale/saved_state.h), and what the start needed. Of cloth, seams, obstacles and
-/// settings only hashes. Throws SceneError where the detector cannot save its state. `size`: of the last one, and then of this.
+/// All that the coming steps depend on, sealed (percale/saved_state.h), and the moves that the start needed. Cloth, seams,
+/// obstacles and settings are held as hashes only. Throws SceneError where the detector cannot save its state. `size`: of the
+/// last state on entry, of this one on return.
 std::vector<std::byte> saved_world(const World& world, const std::vector<StartMove>& start_moves, SavedSize& size);
 
-/// Takes such a state into a world made by the same calls, its views excepted; returns what the start needed. Throws SceneError,
-/// and leaves the world as it was, for bytes that are not whole or belong to another world.
+/// Restores such a state into a world made by the same calls, its views excepted; returns the moves that the start needed.
+/// Throws SceneError, and leaves the world as it was, for bytes that are incomplete or belong to another world.
 std::vector<StartMove> restore_world(std::span<const std::byte> bytes, World& world);
 
 }  // namespace percale

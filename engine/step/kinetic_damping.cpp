@@ -8,7 +8,7 @@
 namespace percale {
 namespace {
 
-/// Whether a step stops cloth: it does where the potential rose. Where that goes on in every second or third step, cloth
+/// Whether a step stops cloth: it does where the potential rose. Where that continues in every second or third step, cloth
 /// trembles between two sets of contacts, each met on the way from the other, and then for a while every step does.
 bool stops(bool rises, double dt, RestState& rest) {
     if (rest.stopping > 0.0) {
@@ -16,7 +16,7 @@ bool stops(bool rises, double dt, RestState& rest) {
         return true;
     }
     rest.unrest = rises ? rest.unrest + unrest_of_rise : std::max(0, rest.unrest - 1);
-    if (rest.unrest >= most_unrest) {
+    if (rest.unrest >= max_unrest) {
         rest.unrest = 0;
         rest.stopping = stopping_time;
     }
@@ -40,11 +40,11 @@ void damp_kinetic_energy(const StepScene& scene, StepState& state, RestState& re
     for (auto* axis : {&state.cloth.velocities.x, &state.cloth.velocities.y, &state.cloth.velocities.z})
         std::fill(axis->begin(), axis->end(), 0.0);
     state.past.forget();
-    state.cloth.impacts.clear();  // what is stopped does not bounce
+    state.cloth.impacts.clear();  // stopped vertices do not bounce
     report.stopped = true;
     report.energy.kinetic -= energy.kinetic;
     report.energy.dissipated_integrator += energy.kinetic;
-    report.largest_speed *= 0.0;  // or still NaN where it is not measured
+    report.largest_speed *= 0.0;  // stays NaN where it is not measured
 }
 
 }  // namespace percale

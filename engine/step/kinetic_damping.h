@@ -1,14 +1,14 @@
 #pragma once
 
 #include "rest_detection.h"
-#include "span/span.h"
+#include "substep/substep.h"
 
 namespace percale {
 
-/// After a good step whose report is measured, with StepSettings::kinetic_damping: stops all cloth if its potential energy,
-/// elastic and of gravity, rose in it though nothing from without did work. Where it rises again and again within a few steps,
-/// every step of the next second or so does. `rest.potential` holds that energy, J, from step to
-/// step. What is taken counts as dissipated by the integrator.
+/// Called after a good step whose report is measured, with StepSettings::kinetic_damping: stops all cloth if its potential
+/// energy, elastic and of gravity, rose in it without external work. Where it rises again and again within a few steps, every
+/// step of the next second or so stops the cloth. `rest.potential` holds that energy, J, from step to step. The energy removed
+/// counts as dissipated by the integrator.
 void damp_kinetic_energy(const StepScene& scene, StepState& state, RestState& rest, StepReport& report);
 
 }  // namespace percale

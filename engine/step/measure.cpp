@@ -14,13 +14,13 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-std::uint64_t hash_of(const ContactRows& rows) {
+std::uint64_t hash_of(const ContactConstraints& constraints) {
     Hash hash;
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-        for (const int vertex : rows.vertex[row]) hash.add(vertex);
-        hash.add(rows.obstacle[row]);
-        hash.add(rows.feature[row]);
-        hash.add(rows.distance[row]);
+    for (std::size_t constraint = 0; constraint < constraints.size(); ++constraint) {
+        for (const int vertex : constraints.vertex[constraint]) hash.add(vertex);
+        hash.add(constraints.obstacle[constraint]);
+        hash.add(constraints.feature[constraint]);
+        hash.add(constraints.distance[constraint]);
     }
     return hash.value();
 }
@@ -31,9 +31,9 @@ void leave_out_ledger(StepEnergy& energy) {
 
 void set_contacts(const StepScene& scene, const StagePoint& last, StepReport& report) {
     const std::vector<CoupledBlock>& blocks = last.contact.blocks;
-    report.contacts =
-        static_cast<int>(std::count_if(blocks.begin(), blocks.end(), [](const CoupledBlock& block) { return block.row >= 0; }));
-    report.contact_hash = hash_of(last.rows);
+    report.contacts = static_cast<int>(
+        std::count_if(blocks.begin(), blocks.end(), [](const CoupledBlock& block) { return block.constraint >= 0; }));
+    report.contact_hash = hash_of(last.constraints);
     report.smallest_distance = scene.detector->smallest_distance();
 }
 
@@ -53,7 +53,7 @@ StepEnergy energy_of(const StepScene& scene, const StepState& state) {
     return energy;
 }
 
-double largest_speed(const Vectors& velocities, int count) {
+double largest_speed(const Vec3Arrays& velocities, int count) {
     return std::sqrt(largest_term(0, count, [&](int i) { return square_at(velocities, i); }));
 }
 

@@ -1,35 +1,35 @@
 #pragma once
 
-#include "span/span.h"
+#include "substep/substep.h"
 
 namespace percale {
 
-/// Energies of a state, J; contact as the last span left it.
+/// Energies of a state, J; contact energy as the last substep left it.
 StepEnergy energy_of(const StepScene& scene, const StepState& state);
 
-/// Of a vertex, m/s.
-double largest_speed(const Vectors& velocities, int count);
+/// Largest speed of a vertex, m/s.
+double largest_speed(const Vec3Arrays& velocities, int count);
 
-/// No position or velocity is infinite or NaN.
+/// Whether all positions and velocities are finite.
 bool all_finite(const Compute& compute, const ClothState& cloth);
 
-/// Fills a step's report with what its end is like: energies, strain, speed, contacts.
+/// Fills a step's report with energies, strain, speed and contacts at its end.
 class StepMeasure {
 public:
-    /// The step begins from `state`, what changes of the scene took in `work`, J.
+    /// The step begins from `state`; `work`, J, is the work of changes of the scene.
     StepMeasure(const StepScene& scene, const StepState& state, double work);
 
-    /// The state that the step led to. Flows of energy are in the report already; the ledger's imbalance comes in.
+    /// For the state that the step led to. The report holds the flows of energy already; the ledger's imbalance is added.
     void accepted(const StepState& state, Workspace& work, StepReport& report) const;
 
-    /// After a failed step: energies, strain and speed of the state that was kept; no contacts, nothing near.
+    /// For a failed step: energies, strain and speed of the state that was kept; no contacts, nothing near.
     void kept(const StepState& state, StepReport& report) const;
 
 private:
     void set_state(const StepState& state, StepReport& report) const;
 
     const StepScene& scene_;
-    double start_energy_ = 0.0;  // J, in all; with the ledger only
+    double start_energy_ = 0.0;  // J, total; with the ledger only
 };
 
 }  // namespace percale

@@ -8,17 +8,17 @@
 
 namespace percale {
 
-void tell_obstacle(const ObstacleState& obstacle, int number, ContactDetector& detector) {
+void report_obstacle(const ObstacleState& obstacle, int number, ContactDetector& detector) {
     if (obstacle.start_shape) detector.deform_obstacle(number, *obstacle.start_shape, *obstacle.end_shape);
     detector.move_obstacle(number, obstacle.start, obstacle.end);
 }
 
-void tell_obstacles(StepScene& scene) {
+void report_obstacles(StepScene& scene) {
     for (std::size_t k = 0; k < scene.script.obstacles.size(); ++k) {
         ObstacleState& obstacle = scene.script.obstacles[k];
         const bool stays = !obstacle.moves();
         if (stays && obstacle.settled && !scene.plan.still_obstacles) continue;
-        tell_obstacle(obstacle, static_cast<int>(k), *scene.detector);
+        report_obstacle(obstacle, static_cast<int>(k), *scene.detector);
         obstacle.settled = stays;
     }
 }
@@ -31,17 +31,17 @@ namespace {
 
 Vec3 displacement_of(const ObstacleState& obstacle) { return obstacle.end.translation - obstacle.start.translation; }
 
-/// A cloth during the coming step if it went on as it moves.
+/// A cloth during the coming step if it continued its present motion.
 ClothAhead cloth_ahead(const StepScene& scene, const ClothRange& cloth, const ClothState& state) {
     ClothAhead ahead(scene.model.thickness[cloth.first], scene.settings.time_step);
     for (int i = cloth.first; i < cloth.first + cloth.count; ++i) ahead.add(state.positions.at(i), state.velocities.at(i));
     return ahead;
 }
 
-/// The largest number of parts that anything asks for so far, and what does.
+/// The largest number of parts required so far, and what requires it.
 struct PartsAsked {
     double parts = 1.0;
-    MotionParts most = {};
+    MotionParts max = {};
 
     void by_obstacle(const StepScene& scene, int number, std::span<const ClothAhead> cloths) {
         const ObstacleState& obstacle = scene.script.obstacles[number];
@@ -55,7 +55,7 @@ struct PartsAsked {
             if (asked <= parts) continue;
             parts = asked;
             const bool jumps = displacement >= jump_parts * largest_part_travel * cloth.thickness();
-            most = {.obstacle = number, .travel = travel, .jumps = jumps};
+            max = {.obstacle = number, .travel = travel, .jumps = jumps};
         }
     }
 
@@ -63,33 +63,34 @@ struct PartsAsked {
         const double travel = travel_beside(cloth, displacement);
         if (travel <= parts * largest_pin_travel * cloth.thickness()) return;
         parts = travel / (largest_pin_travel * cloth.thickness());
-        most = {.vertex = vertex, .travel = travel, .jumps = parts >= jump_parts};
+        max = {.vertex = vertex, .travel = travel, .jumps = parts >= jump_parts};
     }
 
 private:
-    /// Cloth that falls past what hardly moves is the solver's alone.
+    /// Travel of an obstacle beside cloth. Cloth that falls past a body that hardly moves is left to the solver.
     static double travel_beside(const ClothAhead& cloth, const Vec3& displacement) {
         return std::min(displacement.norm(), cloth.beside(displacement).norm());
     }
 };
 
-/// Whether an obstacle goes or turns farther than a part allows, whatever the cloth, of which this is the least thickness, does.
-bool goes_far(const ObstacleState& obstacle, double least_thickness) {
+/// Whether an obstacle translates or turns farther than a part allows, whatever the cloth does; `min_thickness` is the smallest
+/// of any cloth.
+bool goes_far(const ObstacleState& obstacle, double min_thickness) {
     if (!obstacle.moves()) return false;
-    return displacement_of(obstacle).norm() + obstacle.shape_travel > largest_part_travel * least_thickness ||
+    return displacement_of(obstacle).norm() + obstacle.shape_travel > largest_part_travel * min_thickness ||
            angle_between(obstacle.start.rotation, obstacle.end.rotation) > largest_part_turn;
 }
 
-/// Calls `work` with every pin of cloth with contact that goes farther than a part allows, and its displacement, m.
+/// Calls `work` with every pin of cloth with contact that moves farther than a part allows, and its displacement, m.
 template <class Work>
 void for_far_pins(const StepScene& scene, const ClothState& state, Work work) {
     for (const ClothRange& cloth : scene.model.cloths) {
         if (scene.script.obstacles.empty() && !cloth.fabric.self_contact) continue;
-        const double most = largest_pin_travel * scene.model.thickness[cloth.first];
+        const double max = largest_pin_travel * scene.model.thickness[cloth.first];
         for (int i = cloth.first; i < cloth.first + cloth.count; ++i) {
             if (scene.is_free(i)) continue;
             const Vec3 displacement = scene.script.pin_targets.at(i) - state.positions.at(i);
-            if (displacement.norm() > most) work(i, displacement);
+            if (displacement.norm() > max) work(i, displacement);
         }
     }
 }
@@ -101,7 +102,7 @@ MotionParts motion_parts(const StepScene& scene, const ClothState& state) {
     const double thinnest = *std::ranges::min_element(scene.model.thickness);
     bool far = std::ranges::any_of(scene.script.obstacles, [&](const ObstacleState& o) { return goes_far(o, thinnest); });
     for_far_pins(scene, state, [&](int, const Vec3&) { far = true; });
-    if (!far) return {};  // nearly always: what moves along with cloth may still go far
+    if (!far) return {};  // nearly always: what moves along with cloth may still travel far
     std::vector<ClothAhead> cloths;
     for (const ClothRange& cloth : scene.model.cloths) cloths.push_back(cloth_ahead(scene, cloth, state));
     PartsAsked asked;
@@ -110,8 +111,8 @@ MotionParts motion_parts(const StepScene& scene, const ClothState& state) {
     }
     for_far_pins(scene, state,
                  [&](int i, const Vec3& displacement) { asked.by_pin(i, displacement, cloths[cloth_of(scene.model, i)]); });
-    asked.most.count = static_cast<int>(std::ceil(std::min(asked.parts, 2.0 * most_step_parts) - part_rounding));
-    return asked.most;
+    asked.max.count = static_cast<int>(std::ceil(std::min(asked.parts, 2.0 * max_step_parts) - part_rounding));
+    return asked.max;
 }
 
 }  // namespace percale

@@ -7,14 +7,14 @@
 namespace percale {
 namespace {
 
-/// One cloth, and how far it may stray, m.
+/// One cloth, and how far it may move, m.
 struct RestCheck {
     const StepScene& scene;
     const ClothRange& cloth;
     double bound;
 };
 
-bool is_still(const RestCheck& check, const Vectors& positions, const Vectors& anchor) {
+bool is_still(const RestCheck& check, const Vec3Arrays& positions, const Vec3Arrays& anchor) {
     const auto& [scene, cloth, bound] = check;
     for (int i = cloth.first; i < cloth.first + cloth.count; ++i) {
         if ((positions.at(i) - anchor.at(i)).squaredNorm() > bound * bound) return false;
@@ -22,13 +22,13 @@ bool is_still(const RestCheck& check, const Vectors& positions, const Vectors& a
     return true;
 }
 
-/// By what velocities have changed in the step: forces at its end hold what the solver left unbalanced, too, which on a stiff
+/// Judges the balance by the velocity changes of the step: forces at its end include the solver's residual, which on a stiff
 /// contact is many times a vertex's weight where it moves nothing.
-bool is_balanced(const RestCheck& check, const Vectors& from, const Vectors& to) {
+bool is_balanced(const RestCheck& check, const Vec3Arrays& from, const Vec3Arrays& to) {
     const auto& [scene, cloth, bound] = check;
     // A force m a moves a vertex by a t^2/2.
-    const double least = 2.0 * bound / (rest_time * rest_time);
-    const double acceleration = std::max(rest_force_share * scene.settings.gravity.norm(), least);
+    const double min = 2.0 * bound / (rest_time * rest_time);
+    const double acceleration = std::max(rest_force_ratio * scene.settings.gravity.norm(), min);
     const double change = acceleration * scene.settings.time_step;
     for (int i = cloth.first; i < cloth.first + cloth.count; ++i) {
         if (scene.is_free(i) && (to.at(i) - from.at(i)).squaredNorm() > change * change) return false;
@@ -36,9 +36,10 @@ bool is_balanced(const RestCheck& check, const Vectors& from, const Vectors& to)
     return true;
 }
 
-void update_cloth(const RestCheck& check, const Vectors& velocities, const ClothState& state, Vectors& anchor, ClothRest& rest) {
+void update_cloth(const RestCheck& check, const Vec3Arrays& velocities, const ClothState& state, Vec3Arrays& anchor,
+                  ClothRest& rest) {
     const auto& [scene, cloth, bound] = check;
-    const Vectors& positions = state.positions;
+    const Vec3Arrays& positions = state.positions;
     if (is_still(check, positions, anchor)) {
         rest.still_time += scene.settings.time_step;
     } else {
@@ -51,7 +52,7 @@ void update_cloth(const RestCheck& check, const Vectors& velocities, const Cloth
 void fall_asleep(ClothState& cloth, RestState& rest, StepReport& last) {
     rest.asleep = true;
     for (auto* axis : {&cloth.velocities.x, &cloth.velocities.y, &cloth.velocities.z}) axis->assign(axis->size(), 0.0);
-    // Zero, or still NaN where it is not measured.
+    // The speed is zero, or stays NaN where it is not measured.
     last.largest_speed *= 0.0;
     last.energy.dissipated_integrator += last.energy.kinetic;
     last.energy.kinetic *= 0.0;
@@ -72,7 +73,7 @@ void fall_asleep(ClothState& cloth, RestState& rest, StepReport& last) {
 
 }  // namespace
 
-void update_rest(const StepScene& scene, const Vectors& velocities, ClothState& cloth, RestState& rest, StepReport& report) {
+void update_rest(const StepScene& scene, const Vec3Arrays& velocities, ClothState& cloth, RestState& rest, StepReport& report) {
     if (!scene.plan.rest) return;
     if (scene.plan.something_moves() || report.status != StepStatus::ok) return wake(rest);
     if (rest.cloths.size() != scene.model.cloths.size()) {
@@ -83,7 +84,7 @@ void update_rest(const StepScene& scene, const Vectors& velocities, ClothState& 
     for (std::size_t c = 0; c < rest.cloths.size(); ++c) {
         const ClothRange& range = scene.model.cloths[c];
         const std::optional<double>& speed = scene.settings.rest_speed;
-        const double bound = speed ? *speed * rest_time : rest_displacement_share * scene.model.thickness[range.first];
+        const double bound = speed ? *speed * rest_time : rest_displacement_ratio * scene.model.thickness[range.first];
         const RestCheck check{scene, range, bound};
         update_cloth(check, velocities, cloth, rest.anchor, rest.cloths[c]);
         report.sleeping_cloths += rest.cloths[c].asleep;

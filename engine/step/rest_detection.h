@@ -3,13 +3,13 @@
 #include <optional>
 #include <vector>
 
-#include "model/vectors.h"
+#include "model/vec3_arrays.h"
 #include "percale/report.h"
 #include "plan/scene.h"
 
 namespace percale {
 
-/// For how long a cloth has been still.
+/// How long a cloth has been still.
 struct ClothRest {
     double still_time = 0.0;  // s
     bool asleep = false;
@@ -17,26 +17,25 @@ struct ClothRest {
 
 struct RestState {
     std::vector<ClothRest> cloths;
-    Vectors anchor;                   // m, where each vertex was when its cloth became still
+    Vec3Arrays anchor;                // m, where each vertex was when its cloth became still
     std::optional<double> potential;  // J, after the last step (damp_kinetic_energy)
-    int unrest = 0;                   // how often it rose in the last steps
+    int unrest = 0;                   // counts rises of the potential in the last steps (unrest_of_rise)
     double stopping = 0.0;            // s, for how long each step still stops cloth
     bool asleep = false;              // all cloths: steps are not solved
     StepReport figures;               // of the last step that was solved
 };
 
-/// After a good step: follows how long each cloth has been still, and lets all fall asleep (velocities become zero) once every
-/// one is at rest. A cloth is at rest if for 0.5 s
+/// Called after a good step: measures how long each cloth has been still, and lets all fall asleep (velocities become zero) once
+/// each one is at rest. A cloth is at rest if for 0.5 s
 /// - no vertex was farther than 0.002 of the thickness, or 0.5 s times StepSettings::rest_speed, from where it was when that time
 ///   began, and now
-/// - the net force on each free vertex (springs, gravity, contact, friction), mass times what the step changed its velocity by
-///   over its length, is below 0.02 of its weight (without gravity: below what moves it by that distance in that time),
-/// while no pin and no obstacle moved and every step converged. Two conditions, as a swing is slow where it turns and
-/// balanced where it is fast.
-/// `velocities`: at the start of the step, m/s. Falling asleep changes velocities and the report.
-void update_rest(const StepScene& scene, const Vectors& velocities, ClothState& cloth, RestState& rest, StepReport& report);
+/// - the net force on each free vertex (springs, gravity, contact, friction), mass times the velocity change of the step over its
+///   length, is below 0.02 of its weight (without gravity: below the force that moves it by that distance in that time),
+/// while no pin and no obstacle moved and every step converged. There are two conditions, as a swing is slow where it turns and
+/// balanced where it is fast. `velocities`: at the start of the step, m/s. Falling asleep changes velocities and the report.
+void update_rest(const StepScene& scene, const Vec3Arrays& velocities, ClothState& cloth, RestState& rest, StepReport& report);
 
-/// Whatever changes the scene calls this.
+/// To be called by everything that changes the scene.
 void wake(RestState& rest);
 
 /// A step of a simulation asleep: time passes, the state stays, the report repeats the last figures.

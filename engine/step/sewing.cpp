@@ -49,7 +49,7 @@ int sew(World& world, std::span<const Stitch> stitches, const SeamSettings& sett
     world.work.newton.solver.forget_model();
     scene_changed(world);
     world.waiting = waiting_cloth(world.scene, world.state.time);
-    world.changed = world.changed || settings.weld;  // the scheme has to take them
+    world.changed = world.changed || settings.weld;  // the scheme must take welds
     if (meets_cloth(world.scene)) {
         pass_cloth_to_detector(world);
         world.changed = true;

@@ -5,22 +5,22 @@
 
 #include "failure.h"
 #include "schemes/schemes.h"
-#include "span/advance.h"
-#include "span/targets.h"
+#include "substep/advance.h"
+#include "substep/targets.h"
 #include "support/deadline.h"
 #include "tolerances.h"
 
 namespace percale {
 namespace {
 
-/// Of spans, dropped ones too.
-void add_figures(const SpanResult& span, StepReport& report) {
-    report.newton_iterations += span.newton_iterations;
-    report.linear_iterations += span.linear_iterations;
-    report.line_search_cuts += span.line_search_cuts;
-    report.residual = span.residual;
-    report.smallest_fraction = std::min(report.smallest_fraction, span.smallest_fraction);
-    report.contact_stiffness = std::max(report.contact_stiffness, span.contact_stiffness);
+/// Adds the figures of a substep, dropped ones too.
+void add_figures(const SubstepResult& substep, StepReport& report) {
+    report.newton_iterations += substep.newton_iterations;
+    report.linear_iterations += substep.linear_iterations;
+    report.line_search_cuts += substep.line_search_cuts;
+    report.residual = substep.residual;
+    report.smallest_fraction = std::min(report.smallest_fraction, substep.smallest_fraction);
+    report.contact_stiffness = std::max(report.contact_stiffness, substep.contact_stiffness);
 }
 
 void add_flows(const StepEnergy& flows, StepEnergy& sum) {
@@ -28,20 +28,20 @@ void add_flows(const StepEnergy& flows, StepEnergy& sum) {
     for (const auto entry : ledger_entries) sum.*entry += flows.*entry;
 }
 
-/// Makes a step out of spans. Each leads from one state to another in work.ends; what fails is dropped with its end.
+/// Makes a step out of substeps. Each leads from one state to another in work.ends; a failed one is dropped with its end.
 class StepCover {
 public:
     StepCover(const StepScene& scene, const StepState& start, Workspace& work, StepReport& report)
         : scene_(scene), start_(start), work_(work), report_(report) {}
 
-    /// Null if a span failed that cannot be halved any more.
+    /// Null if a substep failed that cannot be halved any more.
     StepState* cover_whole() {
         StepState* end = cover({0.0, 1.0}, start_);
         report_.time_error = error_;
         return end;
     }
 
-    /// By as many lengths as the tolerance asks for; what is accepted is in work.ends[2].
+    /// Covers the step by as many lengths as the tolerance requires; the accepted state is in work.ends[2].
     StepState* cover_adaptively() {
         const double whole = scene_.settings.time_step;
         double shortest = whole, longest = 0.0;
@@ -52,9 +52,9 @@ public:
         for (double at = 0.0; at < 1.0;) {
             const StepStatus status = report_.status;
             const StepEnergy energy = report_.energy;
-            // Once time is up the rest is taken at once, as exact as it comes; an explicit scheme would blow up.
+            // Once time is up the rest is taken in one substep with its error; an explicit scheme would diverge.
             const bool late = scene_.plan.implicit && (report_.out_of_time || is_past(work_.time.deadline));
-            if (late) accepted.past.earlier_length = 0.0;  // BDF2 may not grow its lengths so fast
+            if (late) accepted.past.earlier_length = 0.0;  // BDF2 may not increase its lengths so fast
             const double rest = whole * (1.0 - at), length = late ? rest : next_length(control, rest);
             const double share = length / whole, to = at + share > 1.0 - 1e-9 ? 1.0 : at + share;
             error_ = 0.0;
@@ -66,11 +66,11 @@ public:
             report_.out_of_time = report_.out_of_time || (late && !exact);
             if (exact || !report_.out_of_time) control = judged;
             if (!exact && !report_.out_of_time) {
-                accepted.past.earlier_length = 0.0;  // BDF2 goes on with shorter lengths as from a start
+                accepted.past.earlier_length = 0.0;  // BDF2 continues with shorter lengths as from a start
                 report_.status = status;
                 report_.energy = energy;
                 if (status != StepStatus::not_converged) report_.stretched_cloth = -1, report_.stretch = 0.0;
-                report_.dropped.add(SpanEnd::inexact);
+                report_.dropped.add(SubstepOutcome::inexact);
                 ++report_.rejected;
                 continue;
             }
@@ -89,7 +89,7 @@ public:
     }
 
 private:
-    bool touches() const { return scene_.plan.contacts && work_.newton.current.rows.size() > 0; }
+    bool touches() const { return scene_.plan.contacts && work_.newton.current.constraints.size() > 0; }
 
     StepState& other_end(const StepState& state) { return &state == &work_.ends[0] ? work_.ends[1] : work_.ends[0]; }
 
@@ -106,7 +106,7 @@ private:
             const bool last = part + 1 == scene_.plan.parts;
             if (cancelled()) return nullptr;
             end = &other_end(*at);
-            keep(advance(span({piece.from + part * length, last ? piece.to : piece.from + (part + 1) * length}, false), *at,
+            keep(advance(substep({piece.from + part * length, last ? piece.to : piece.from + (part + 1) * length}, false), *at,
                          work_, *end));
             at = end;
         }
@@ -114,13 +114,13 @@ private:
         return end;
     }
 
-    /// Spans that fail are solved again as two halves, and these in turn.
+    /// Substeps that fail are solved again as two halves, and these in turn.
     StepState* cover_by_halves(StepFraction piece, const StepState& start) {
         struct Pending {
             StepFraction fraction;
             int depth;
         };
-        std::array<Pending, most_halvings + 2> pending;
+        std::array<Pending, max_halvings + 2> pending;
         std::size_t count = 0;
         pending[count++] = {piece, 0};
         const StepState* at = &start;
@@ -129,14 +129,14 @@ private:
             work_.newton.iterations_left = work_.iterations_left - report_.newton_iterations;
             work_.newton.time = work_.time;
             const auto [fraction, depth] = pending[--count];
-            const Span next = span(fraction, depth == most_halvings);
+            const Substep next = substep(fraction, depth == max_halvings);
             end = &other_end(*at);
-            const SpanResult result = advance(next, *at, work_, *end);
+            const SubstepResult result = advance(next, *at, work_, *end);
             work_.time = work_.newton.time;
             add_figures(result, report_);
             if (cancelled()) return nullptr;
             const bool worked_out = report_.newton_iterations >= work_.iterations_left;
-            const bool taken = result.end == SpanEnd::solved || (result.out_of_time && result.is_usable(next.last_try));
+            const bool taken = result.end == SubstepOutcome::solved || (result.out_of_time && result.is_usable(next.last_try));
             const bool late = work_.time.late_iterations < 0 && !taken;
             if (late || (worked_out && (!taken || count > 0))) {
                 report_.status = StepStatus::work_limit;
@@ -145,7 +145,7 @@ private:
             }
             if (result.is_usable(next.last_try)) {
                 keep(result);
-                if (result.end != SpanEnd::solved) tell_unsolved(scene_, work_, report_);
+                if (result.end != SubstepOutcome::solved) report_unsolved(scene_, work_, report_);
                 report_.out_of_time = report_.out_of_time || result.out_of_time;
                 report_.smallest_dt = std::min(report_.smallest_dt, next.length());
                 report_.largest_dt = std::max(report_.largest_dt, next.length());
@@ -153,7 +153,7 @@ private:
                 continue;
             }
             if (next.last_try) {
-                tell_failure(scene_, result.end, work_, report_);
+                report_failure(scene_, result.end, work_, report_);
                 return nullptr;
             }
             ++report_.halvings;
@@ -165,16 +165,16 @@ private:
         return end;
     }
 
-    /// By the caller's wish: the step is failed.
+    /// Fails the step if the caller has cancelled it.
     bool cancelled() {
         const bool now = is_cancelled(work_.time.deadline);
         if (now) report_.status = StepStatus::cancelled;
         return now;
     }
 
-    Span span(StepFraction fraction, bool last_try) const { return {scene_, start_.cloth.positions, fraction, last_try}; }
+    Substep substep(StepFraction fraction, bool last_try) const { return {scene_, start_.cloth.positions, fraction, last_try}; }
 
-    void keep(const SpanResult& result) {
+    void keep(const SubstepResult& result) {
         add_flows(result.flows, report_.energy);
         error_ += result.error;
     }
@@ -183,14 +183,14 @@ private:
     const StepState& start_;
     Workspace& work_;
     StepReport& report_;
-    double error_ = 0.0;  // m, estimated, of the spans kept since it was set to 0
+    double error_ = 0.0;  // m, estimated, of the substeps kept since it was set to 0
 };
 
-/// No vertex is free to move.
+/// For a step in which no vertex is free to move.
 StepState* stand_still(const StepScene& scene, const StepState& start, Workspace& work) {
     StepState& end = work.ends[0];
     end = start;
-    set_rest_length({scene, start.cloth.positions, {0.0, 1.0}}, start, work.rest_length, end.cloth);  // seams close all the same
+    set_rest_length({scene, start.cloth.positions, {0.0, 1.0}}, start, work.rest_length, end.cloth);  // seams still close
     end.contact_energy = 0.0;
     end.cloth.velocities.resize(scene.model.vertex_count());
     return &end;

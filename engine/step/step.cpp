@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "checks/checked_terms.h"
+#include "compliant_obstacle.h"
 #include "failure.h"
 #include "kinetic_damping.h"
 #include "measure.h"
@@ -14,7 +15,6 @@
 #include "step_parts.h"
 #include "support/deadline.h"
 #include "tolerances.h"
-#include "yielding.h"
 
 namespace percale {
 namespace {
@@ -34,7 +34,7 @@ void advance_time(double time_step, StepState& state) {
 }
 
 /// Renews an outdated plan and sets what moves in this step. contact_dt, which sets the stiffness of contact, grows at once with
-/// the time step and falls gradually. Returns the work of pins that came or went, of welds and of strain limits, J.
+/// the time step and falls gradually. Returns the work of added and removed pins, of welds and of strain limits, J.
 double plan_step(World& world) {
     StepScene& scene = world.scene;
     const double pins = world.plan_outdated ? renew_plan(scene, world.state.cloth) : 0.0;
@@ -45,7 +45,7 @@ double plan_step(World& world) {
     return pins + tighten_holds(world);
 }
 
-/// Whether the end that was found is one: nothing infinite, no force that contradicts its energy.
+/// Checks the end that was found: it is finite, and no force contradicts its energy.
 void check_end(const StepScene& scene, const StepState& start, const StepState& end, const Workspace& work, StepReport& report) {
     if (report.ok() && !all_finite(scene.compute, end.cloth)) report.status = StepStatus::not_finite;
     if (report.ok() && scene.settings.check_derivatives)
@@ -62,16 +62,16 @@ StepReport step_once(World& world) {
     StepReport report = begin_report(dt);
     work.times = {};
     report.energy.work = plan_step(world);
-    tell_obstacles(scene);  // where they have to be at the end of the step; nothing moves yet
+    report_obstacles(scene);  // with their targets at the end of the step; nothing moves yet
     Pinches pinches;
-    if (any_yields(scene.script)) {
-        pinches = yield_to_cloth(world);
-        set_motion_of_step(scene, state.cloth, state.time);  // where dents stay nothing may move
+    if (any_compliant(scene.script)) {
+        pinches = comply_with_cloth(world);
+        set_motion_of_step(scene, state.cloth, state.time);  // where deflections stay nothing may move
     }
     const StepMeasure measure(scene, state, report.energy.work);
 
-    // Explicit, or Newton on the implicit scheme; every move is shortened until it crosses nothing. The end lies in the
-    // workspace; null: the report says why.
+    // Explicit, or Newton on the implicit scheme; every move is clamped so that it crosses nothing. The end lies in the
+    // workspace; null: the report states why.
     StepState* end = solve_step(scene, state, work, report);
     if (end) check_end(scene, state, *end, work, report);
 
@@ -81,7 +81,7 @@ StepReport step_once(World& world) {
         finish_motion(scene);
         report.pinched = pinches.count;
         report.pinching = pinches.obstacles;
-        report.yielded = deepest_dent(scene.script);
+        report.yielded = largest_deflection(scene.script);
         advance_time(dt, state);
         measure.accepted(state, work, report);
         update_rest(scene, end->cloth.velocities, state.cloth, rest, report);
@@ -98,12 +98,12 @@ StepReport step_once(World& world) {
     return report;
 }
 
-/// A step as so many parts.
+/// One step divided into parts.
 StepReport step_divided(World& world, int parts) {
     StepState& state = world.state;
     const double dt = world.scene.settings.time_step, time = state.time, time_error = state.time_error;
     StepReport report = step_in_parts(world, parts, step_once);
-    if (report.ok()) {  // as one step adds it up
+    if (report.ok()) {  // in the order in which one step sums it
         state.time = time;
         state.time_error = time_error;
         advance_time(dt, state);
@@ -115,36 +115,36 @@ StepReport step_divided(World& world, int parts) {
     return report;
 }
 
-/// A step in which an obstacle moves farther than any number of parts allows.
+/// Refuses a step in which an obstacle moves farther than any number of parts allows.
 StepReport refuse_far(World& world, const MotionParts& motion) {
     StepReport report = begin_report(world.scene.settings.time_step);
-    tell_too_far(world.scene, motion, report);
+    report_too_far(world.scene, motion, report);
     world.load_source = LoadSource::nowhere;
     StepMeasure(world.scene, world.state, 0.0).kept(world.state, report);
     report.time = world.state.time;
     return report;
 }
 
-/// Cloth that sleeps goes on pressing with the forces it fell asleep with.
+/// Cloth that sleeps continues to press with the forces at which it fell asleep.
 void press_asleep(World& world) {
     const double dt = world.scene.settings.time_step;
     for (const ContactLoad& load : contact_loads(world))
         world.state.impulses[load.obstacle].take(load.cloth_point, dt * load.force());
 }
 
-/// Whether what closes on the cloth gives way to it.
-bool yields_in_vain(const Script& script, const StepReport& report) {
+/// Whether a compliant obstacle that closes on the cloth failed the step.
+bool complies_in_vain(const Script& script, const StepReport& report) {
     if (report.status != StepStatus::obstacle_too_fast) return false;
-    const auto yields = [&](int number) { return number >= 0 && script.obstacles[static_cast<std::size_t>(number)].yielding; };
+    const auto yields = [&](int number) { return number >= 0 && script.obstacles[static_cast<std::size_t>(number)].compliant; };
     return yields(report.blocking_obstacle) || yields(report.second_obstacle);
 }
 
-/// Surfaces that yield see cloth only when they are near it: what failed is made again in shorter parts.
-StepReport step_yielding(World& world, int parts, StepReport report) {
-    for (const int more : yielding_parts) {
-        if (!yields_in_vain(world.scene.script, report) || more <= parts) continue;
+/// Compliant surfaces see cloth only when they are near it: a failed step is made again in shorter parts.
+StepReport step_compliant(World& world, int parts, StepReport report) {
+    for (const int more : compliant_parts) {
+        if (!complies_in_vain(world.scene.script, report) || more <= parts) continue;
         const StepReport before = report;
-        if (parts == 1 && more == yielding_parts[0]) world.work.iterations_left -= before.newton_iterations;
+        if (parts == 1 && more == compliant_parts[0]) world.work.iterations_left -= before.newton_iterations;
         if (world.work.iterations_left <= 0) {
             report.status = StepStatus::work_limit;
             report.out_of_time = false;
@@ -153,7 +153,7 @@ StepReport step_yielding(World& world, int parts, StepReport report) {
         report = step_divided(world, more);
         add_work(before, report);
     }
-    report.yielded_in_vain = yields_in_vain(world.scene.script, report);
+    report.yielded_in_vain = complies_in_vain(world.scene.script, report);
     return report;
 }
 
@@ -161,7 +161,7 @@ StepReport step_yielding(World& world, int parts, StepReport report) {
 
 void scene_changed(World& world) {
     world.plan_outdated = true;
-    world.state.past.forget();  // what schemes would extrapolate from
+    world.state.past.forget();  // the states from which schemes would extrapolate
     wake(world.rest);
 }
 
@@ -174,11 +174,11 @@ StepReport step(World& world) {
     }
     const int limit = world.scene.settings.work_limit;
     world.work.iterations_left = limit > 0 ? limit : std::numeric_limits<int>::max();
-    world.work.time = {deadline_in(world.time_limit, world.cancel), most_late_iterations};
+    world.work.time = {deadline_in(world.time_limit, world.cancel), max_late_iterations};
     const MotionParts motion = motion_parts(world.scene, world.state.cloth);
-    if (motion.count > most_step_parts) return refuse_far(world, motion);
+    if (motion.count > max_step_parts) return refuse_far(world, motion);
     StepReport report = motion.count > 1 ? step_divided(world, motion.count) : step_once(world);
-    if (any_yields(world.scene.script)) report = step_yielding(world, motion.count, std::move(report));
+    if (any_compliant(world.scene.script)) report = step_compliant(world, motion.count, std::move(report));
     if (motion.jumps) report.jump = motion.travel;
     return report;
 }

@@ -4,7 +4,7 @@
 
 namespace percale {
 
-/// One time step. A failed one leaves the state as it was.
+/// Makes one time step. A failed one leaves the state as it was.
 StepReport step(World& world);
 
 }  // namespace percale

@@ -8,17 +8,17 @@
 namespace percale {
 namespace {
 
-/// The shape of an obstacle after a share of the step.
-Shape shape_after(double share, const ObstacleState& obstacle) {
-    const Shape& end = obstacle.yielding ? obstacle.aim : obstacle.end_shape;
-    if (share == 1.0) return end;
+/// The shape of an obstacle after a fraction of the step.
+Shape shape_after(double fraction, const ObstacleState& obstacle) {
+    const Shape& end = obstacle.compliant ? obstacle.aim : obstacle.end_shape;
+    if (fraction == 1.0) return end;
     auto between = std::make_shared<std::vector<Vec3>>(*obstacle.start_shape);
-    for (std::size_t i = 0; i < obstacle.dent.size(); ++i) (*between)[i] -= obstacle.dent[i];
-    for (std::size_t i = 0; i < between->size(); ++i) (*between)[i] += share * ((*end)[i] - (*between)[i]);
+    for (std::size_t i = 0; i < obstacle.deflection.size(); ++i) (*between)[i] -= obstacle.deflection[i];
+    for (std::size_t i = 0; i < between->size(); ++i) (*between)[i] += fraction * ((*end)[i] - (*between)[i]);
     return between;
 }
 
-/// What steps change of a simulation and its script, as it was before the first part. Cloth at rest is awake by then.
+/// The state of a simulation and its script before the first part, as far as steps change it. Cloth at rest is awake by then.
 class Beginning {
 public:
     explicit Beginning(const World& world)
@@ -30,28 +30,28 @@ public:
         find_carried_pins(world.scene);
     }
 
-    /// Where obstacles and pins are to be after a share of the step, from where they are now.
-    void aim_at(double share, Script& script) const {
+    /// Sets the targets of obstacles and pins after a fraction of the step, from where they are now.
+    void aim_at(double fraction, Script& script) const {
         for (std::size_t k = 0; k < obstacles_.size(); ++k) {
             const auto& [start, end] = std::pair(obstacles_[k].start, obstacles_[k].end);
-            script.obstacles[k].end = share == 1.0 || start == end ? end : interpolate(start, end, share);
-            if (obstacles_[k].yielding)
-                script.obstacles[k].aim_at(shape_after(share, obstacles_[k]));
+            script.obstacles[k].end = fraction == 1.0 || start == end ? end : interpolate(start, end, fraction);
+            if (obstacles_[k].compliant)
+                script.obstacles[k].aim_at(shape_after(fraction, obstacles_[k]));
             else if (obstacles_[k].deforms())
-                script.obstacles[k].end_shape = shape_after(share, obstacles_[k]);
+                script.obstacles[k].end_shape = shape_after(fraction, obstacles_[k]);
         }
         for (int i = 0; i < vertices_; ++i) {
             if (script.free[i] > 0.0) continue;
             const Vec3 start = state_.cloth.positions.at(i), end = pin_targets_.at(i);
-            script.pin_targets.set(i, share == 1.0 ? end : Vec3(start + share * (end - start)));
+            script.pin_targets.set(i, fraction == 1.0 ? end : Vec3(start + fraction * (end - start)));
         }
-        if (share == 1.0) return;
+        if (fraction == 1.0) return;
         for (const auto& [vertex, obstacle, place] : carried_) {
             script.pin_targets.set(vertex, transform(script.obstacles[obstacle].end, place));
         }
     }
 
-    /// The script leads to the end of the step again.
+    /// Sets the script's targets to the end of the step again.
     void restore(World& world) && {
         aim_at(1.0, world.scene.script);
         world.state = std::move(state_);
@@ -63,14 +63,14 @@ public:
     }
 
 private:
-    /// A pin that goes with an obstacle, and its place in the mesh.
+    /// A pin that moves with an obstacle, and its place in the mesh.
     struct Carried {
         int vertex;
         std::size_t obstacle;
         Vec3 place;
     };
 
-    /// Pins that an obstacle which turns takes to their targets.
+    /// Finds the pins that a turning obstacle carries to their targets.
     void find_carried_pins(const StepScene& scene) {
         for (std::size_t k = 0; k < obstacles_.size(); ++k) {
             const auto& [start, end] = std::pair(obstacles_[k].start, obstacles_[k].end);
@@ -87,21 +87,21 @@ private:
     std::vector<Carried> carried_;
     StepState state_;
     std::vector<ObstacleState> obstacles_;
-    Vectors pin_targets_;
+    Vec3Arrays pin_targets_;
     Holds holds_;
 };
 
-/// `sum` becomes the report of both: what was done is added, what the end is like is the later part's.
+/// `sum` becomes the report of both: work is added, the end state is the later part's.
 void add_part(StepReport part, StepReport& sum) {
     const StepReport before = sum;
     sum = std::move(part);
-    sum.status = std::max(sum.status, before.status);  // the accepted ones come first, from the best on
+    sum.status = std::max(sum.status, before.status);  // accepted statuses come first, in ascending order of severity
     sum.smallest_dt = std::min(sum.smallest_dt, before.smallest_dt);
     sum.largest_dt = std::max(sum.largest_dt, before.largest_dt);
     sum.parts += before.parts;
     sum.time_error += before.time_error;
     add_work(before, sum);
-    if (sum.ok()) sum.out_of_time = sum.out_of_time || before.out_of_time;  // why it failed is the last part's
+    if (sum.ok()) sum.out_of_time = sum.out_of_time || before.out_of_time;  // the last part's failure decides
     sum.smallest_fraction = std::min(sum.smallest_fraction, before.smallest_fraction);
     sum.contact_stiffness = std::max(sum.contact_stiffness, before.contact_stiffness);
     if (sum.pinched < before.pinched) {

@@ -6,7 +6,7 @@
 namespace percale {
 namespace {
 
-/// Which cloths and obstacles go along.
+/// Which cloths and obstacles take part.
 struct Company {
     const ClothModel& model;
     std::span<const int> cloths, obstacles;
@@ -14,7 +14,7 @@ struct Company {
     bool has_cloth_of(int vertex) const { return std::ranges::count(cloths, cloth_of(model, vertex)) > 0; }
     bool has_obstacle(int obstacle) const { return std::ranges::count(obstacles, obstacle) > 0; }
 
-    /// The bond of a vertex with an obstacle, or with cloth (-1), whose vertex is not known.
+    /// Releases the bond of a vertex with an obstacle, or with cloth (-1), whose vertex is not known.
     template <class Held>
     bool parts(const Held& held) const {
         if (held.obstacle < 0) return has_cloth_of(held.vertex);
@@ -32,14 +32,14 @@ void move_cloth(World& world, const ClothRange& cloth, const Pose& motion, bool 
     }
 }
 
-/// The directions of seams and of grips.
+/// Turns the directions of seams and of stick anchors.
 void turn_directions(World& world, const Company& company, const Pose& motion) {
     const Pose turn{.rotation = motion.rotation};
     ClothState& state = world.state.cloth;
-    std::erase_if(state.grips, [&](const Grip& grip) { return company.parts(grip); });
+    std::erase_if(state.stick_anchors, [&](const StickAnchor& stick_anchor) { return company.parts(stick_anchor); });
     std::erase_if(state.impacts, [&](const Impact& impact) { return company.parts(impact); });
-    for (Grip& grip : state.grips) {
-        if (company.has_cloth_of(grip.vertex)) grip.stretch = transform(turn, grip.stretch);
+    for (StickAnchor& stick_anchor : state.stick_anchors) {
+        if (company.has_cloth_of(stick_anchor.vertex)) stick_anchor.stretch = transform(turn, stick_anchor.stretch);
     }
     for (SewnPoint& point : world.scene.model.sewn_points) {
         if (company.has_cloth_of(point.stitch.vertex)) point.direction = transform(turn, point.direction);
@@ -51,7 +51,7 @@ void turn_directions(World& world, const Company& company, const Pose& motion) {
 
 Pose moved(const Pose& motion, const Pose& pose) {
     Rotation q = product(motion.rotation, pose.rotation);
-    const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);  // 1, but for what rounding adds up to
+    const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);  // 1, except for accumulated rounding
     q = {q.w / length, q.x / length, q.y / length, q.z / length};
     return {transform(motion, pose.translation), q, pose.scale};
 }

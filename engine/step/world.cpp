@@ -28,7 +28,7 @@ std::vector<int> waiting_cloth(const StepScene& scene, double time) {
     };
     for (const Seam& seam : scene.script.seams) {
         if (!waits(seam)) continue;
-        // All its stitches join the same two.
+        // All stitches of a seam join the same two cloths.
         join(cloth_of(model, seam.stitches.front().vertex), cloth_of(model, seam.stitches.front().from));
     }
     return group;
@@ -40,7 +40,7 @@ bool meet_now(const World& world, int first, int second) {
     const std::vector<int>& waiting = world.waiting;
     const auto group = [&](int cloth) { return cloth < static_cast<int>(waiting.size()) ? waiting[cloth] : -1; };
     if (group(first) >= 0 && group(first) == group(second)) return false;
-    // A seam that closes around another layer would close upon what of it stands out between its edges.
+    // A seam that closes around another layer would close upon the part of it that sticks out between its edges.
     const ClothPairs& pairs = world.scene.script.pairs;
     const bool closes = group(first) >= 0 || group(second) >= 0;
     if (closes && pairs.layer(first) != pairs.layer(second)) return false;
@@ -59,14 +59,15 @@ bool cloth_meets_now(const World& world) {
 
 namespace {
 
-/// What the detector is told of pairs: what is said, and that those which wait do not meet. `zone`: times the thickness.
-ClothPairs pairs_now(const World& world, double zone) {
+/// The pair settings for the detector: the given ones, and that waiting cloths do not meet; thicknesses times
+/// `activation_ratio`.
+ClothPairs pairs_now(const World& world, double activation_ratio) {
     ClothPairs pairs;
     for (const auto& [cloth, layer] : world.scene.script.pairs.layers()) pairs.set_layer(cloth, layer);
     const int count = static_cast<int>(world.scene.model.cloths.size());
     for (const auto& [cloths, said] : world.scene.script.pairs.said()) {
         ClothPair pair = said;
-        if (pair.thickness) *pair.thickness *= zone;
+        if (pair.thickness) *pair.thickness *= activation_ratio;
         pairs.set(cloths[0], cloths[1], pair);
     }
     if (world.waiting.empty()) return pairs;
@@ -83,10 +84,10 @@ ClothPairs pairs_now(const World& world, double zone) {
 void pass_cloth_to_detector(World& world) {
     const ClothModel& model = world.scene.model;
     if (!world.scene.detector) return;
-    std::vector<double> zone = model.thickness;
-    const double factor = world.work.newton.law(world.scene.settings.contact_response).zone();
-    for (double& thickness : zone) thickness *= factor;
-    world.scene.detector->set_cloth(model.triangles, zone);
+    std::vector<double> activation_distance = model.thickness;
+    const double activation_ratio = world.work.newton.law(world.scene.settings.contact_response).activation_ratio();
+    for (double& thickness : activation_distance) thickness *= activation_ratio;
+    world.scene.detector->set_cloth(model.triangles, activation_distance);
     if (!cloth_meets_now(world)) return;
     std::vector<int> owner;
     std::vector<double> friction;
@@ -98,8 +99,11 @@ void pass_cloth_to_detector(World& world) {
     }
     std::vector<Stitch> stitches;
     for (const Seam& seam : world.scene.script.seams) stitches.insert(stitches.end(), seam.stitches.begin(), seam.stitches.end());
-    world.scene.detector->set_self_contact(
-        {.cloth = owner, .rest = model.rest, .friction = friction, .stitches = stitches, .pairs = pairs_now(world, factor)});
+    world.scene.detector->set_self_contact({.cloth = owner,
+                                            .rest = model.rest,
+                                            .friction = friction,
+                                            .stitches = stitches,
+                                            .pairs = pairs_now(world, activation_ratio)});
 }
 
 void check_scheme(const StepScene& scene) {
@@ -128,17 +132,17 @@ std::vector<ContactLoad> contact_loads(const World& world, int only) {
         return loads;
     }
     const StagePoint& last = world.work.newton.current;
-    std::vector<ContactLoad> loads = contact_loads(last.rows, last.contact, last.row_forces, only);
+    std::vector<ContactLoad> loads = contact_loads(last.constraints, last.contact, last.constraint_forces, only);
     for (ContactLoad& load : loads) load.cloth_point = world.state.cloth.positions.at(load.vertex);
     return loads;
 }
 
 void set_workers(World& world) {
     if (world.own_workers) {
-        const int most = world.scene.model.vertex_count() / least_vertices_a_thread;
+        const int max = world.scene.model.vertex_count() / min_vertices_a_thread;
         const int said = world.scene.settings.threads;
-        const int wanted = said > 0 ? said : std::min(most, static_cast<int>(std::thread::hardware_concurrency()));
-        const int threads = std::clamp(wanted, 1, most_threads);
+        const int wanted = said > 0 ? said : std::min(max, static_cast<int>(std::thread::hardware_concurrency()));
+        const int threads = std::clamp(wanted, 1, max_threads);
         if (threads == 1) world.workers.reset();
         if (threads > 1 && !(world.workers && world.workers->threads() == threads)) world.workers = make_workers(threads);
     }

@@ -7,7 +7,7 @@
 
 #include "percale/contact_load.h"
 #include "rest_detection.h"
-#include "span/span.h"
+#include "substep/substep.h"
 #include "support/checked_workers.h"
 #include "support/thread_pool.h"
 
@@ -16,20 +16,20 @@ namespace percale {
 /// What callers see, one entry a vertex in the user's order. Positions and masses are kept only if some cloth has another order.
 struct UserViews {
     std::vector<Vec3> positions;   // m
-    std::vector<Vec3> velocities;  // m/s, of the cloths that were asked for
+    std::vector<Vec3> velocities;  // m/s, of the cloths whose velocities a caller has requested
     std::vector<double> masses;    // kg
 };
 
-/// Where the contact forces of the present state are known from.
+/// The source of the contact forces of the present state.
 enum class LoadSource { nowhere, last_solve, saved_state };
 
-/// What of a start may not be simulated.
+/// Why a start may not be simulated.
 struct RefusedStart {
-    int obstacle = -1;          // cloth that crosses it, is inside of it or touches it; -1: nothing, or cloth alone
+    int obstacle = -1;          // cloth crosses it, lies inside it or touches it; -1: nothing, or cloth alone
     std::vector<int> vertices;  // inside it
 };
 
-/// The callers' numbers of the bodies of one kind that there are: ascending, and never given twice.
+/// The callers' numbers of the existing bodies of one kind: ascending, and never given twice.
 struct GivenNumbers {
     std::vector<int> all;
     int next = 0;
@@ -38,7 +38,7 @@ struct GivenNumbers {
         all.push_back(next);
         return next++;
     }
-    /// Where the body of a number stands among those that there are; -1: nowhere.
+    /// Index of the body of a number among the existing ones; -1: there is none.
     int index_of(int number) const {
         const auto found = std::ranges::lower_bound(all, number);
         return found != all.end() && *found == number ? static_cast<int>(found - all.begin()) : -1;
@@ -47,10 +47,10 @@ struct GivenNumbers {
     bool operator==(const GivenNumbers&) const = default;
 };
 
-/// Everything one simulation holds. Only what owns it knows it as a whole: the simulation, the step at its top, and saving.
+/// Everything one simulation holds. Only its owners know it as a whole: the simulation, the step at its top, and saving.
 struct World {
     std::shared_ptr<Workers> workers;            // null: the caller's thread alone
-    std::shared_ptr<const CheckedWorkers> host;  // those workers, where they are a host's
+    std::shared_ptr<const CheckedWorkers> host;  // those workers, where a host gave them
     const std::atomic<bool>* cancel = nullptr;   // Simulation::set_cancel
     bool own_workers = true;                     // made by StepSettings::threads, not given
     StepScene scene;
@@ -60,46 +60,45 @@ struct World {
     UserViews views;
     bool plan_outdated = true;  // the scene has changed since the plan was made
     bool changed = true;        // cloth or obstacles were added since the last preparation
-    RefusedStart refused;       // what stood in the way of the last preparation
+    RefusedStart refused;       // why the last preparation refused the start
     LoadSource load_source = LoadSource::nowhere;
     double time_limit = 0.0;               // s, Simulation::set_time_limit
     bool keeps_impulses = false;           // StepState::impulses
     std::vector<ContactLoad> saved_loads;  // of a state that was restored
-    Holds holds_before;                    // before the step that is being made
-    /// Of each cloth that waits for seams to close: cloths with the same number are joined by such seams and do not meet each
-    /// other, nor themselves, nor cloth of other layers, before; -1: it waits for none. Empty where none waits.
+    Holds holds_before;                    // before the step that is under way
+    /// For each cloth, whether it waits for seams to close: cloths with the same number are joined by such seams and do not meet
+    /// each other, nor themselves, nor cloth of other layers, before; -1: it waits for none. Empty where none waits.
     std::vector<int> waiting;
     GivenNumbers cloth_numbers, obstacle_numbers, seam_numbers;
 };
 
-/// Some cloth has self_contact.
+/// Whether some cloth has self_contact.
 bool meets_cloth(const StepScene& scene);
 
-/// World::waiting as it is after a time, s.
+/// World::waiting as it is at a time, s.
 std::vector<int> waiting_cloth(const StepScene& scene, double time);
 
-/// Whether two cloths, or a cloth with itself, meet now: both have self_contact, nothing else is said, and World::waiting does
-/// not keep them apart.
+/// Whether two cloths, or a cloth with itself, meet now: both have self_contact, no pair setting excludes it, and World::waiting
+/// does not keep them apart.
 bool meet_now(const World& world, int first, int second);
 
-/// Whether any two do.
+/// Whether any two cloths meet now.
 bool cloth_meets_now(const World& world);
 
-/// Tells the detector all cloth anew, and what of it meets cloth now.
+/// Passes all cloth to the detector anew, and which of it meets cloth now.
 void pass_cloth_to_detector(World& world);
 
-/// Throws SceneError where the scheme takes no contact and the scene has some, or takes none by projection, or takes no welded
-/// seams.
+/// Throws SceneError where the scene has contact, projected contact or welded seams that its scheme does not take.
 void check_scheme(const StepScene& scene);
 
-/// Forces of obstacles on vertices at the end of the last step that was solved, sorted by vertex and obstacle; none where they
+/// Forces of obstacles on vertices at the end of the last step that was solved, sorted by vertex and obstacle; empty where they
 /// are not known. `only`: of one obstacle; -1: of all.
 std::vector<ContactLoad> contact_loads(const World& world, int only = -1);
 
-/// As many threads as the settings say, or as pay for the cloth that there is; the workers that were given, if any.
+/// Uses as many threads as the settings request, or as pay for the amount of cloth; given workers take precedence.
 void set_workers(World& world);
 
-/// The scene has changed: the plan is made anew by the next step, and cloth at rest wakes up.
+/// To be called when the scene has changed: the next step makes the plan anew, and cloth at rest wakes up.
 void scene_changed(World& world);
 
 }  // namespace percale

@@ -6,7 +6,7 @@
 
 namespace percale {
 
-/// Memory from a 64-byte boundary, as the kernels want it.
+/// Memory from a 64-byte boundary, as the kernels require it.
 template <class T>
 struct AlignedAllocator {
     using value_type = T;

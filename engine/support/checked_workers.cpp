@@ -7,9 +7,9 @@
 namespace percale {
 
 CheckedWorkers::CheckedWorkers(std::shared_ptr<Workers> host) : host_(std::move(host)), threads_(host_->threads()) {
-    if (threads_ < 1 || threads_ > most_threads)
+    if (threads_ < 1 || threads_ > max_threads)
         throw SceneError("workers", "threads() = " + std::to_string(threads_) + " is outside the allowed range 1 ... " +
-                                        std::to_string(most_threads));
+                                        std::to_string(max_threads));
 }
 
 void CheckedWorkers::do_part(void* workers, int part, int slot) {
@@ -33,9 +33,9 @@ void CheckedWorkers::run(int parts, void (*work)(void* data, int part, int slot)
     batch_.done = 0;
     batch_.wrong = false;
     batch_.parts = parts;
-    broken_ = true;  // stays so if the host throws
+    broken_ = true;  // stays true if the host throws
     host_->run(parts, do_part, this);
-    batch_.parts = 0;  // what comes later is none of it
+    batch_.parts = 0;  // later calls are not part of it
     broken_ = batch_.wrong || batch_.done != parts;
     check();
 }

@@ -7,19 +7,19 @@
 
 namespace percale {
 
-/// A host's workers, with a watch on what they promise: each part once, slots in range, no exception.
+/// A host's workers, with checks of their contract: each part once, slots in range, no exception.
 class CheckedWorkers : public Workers {
 public:
-    /// Throws SceneError where the host says that it has no threads, or too many.
+    /// Throws SceneError where the host states no threads, or too many.
     explicit CheckedWorkers(std::shared_ptr<Workers> host);
 
     int threads() const override { return threads_; }
-    /// Throws WorkersError where the host has not done each part once; what a host throws passes through. A part that is called
-    /// again is not done again.
+    /// Throws WorkersError where the host has not done each part once; exceptions of the host pass through. A part that is
+    /// called again is not done again.
     void run(int parts, void (*work)(void* data, int part, int slot), void* data) override;
     double other_cpu_seconds() const override { return host_->other_cpu_seconds(); }
 
-    /// Throws WorkersError, from then on, where a run has ever failed: work was left out.
+    /// Throws WorkersError once a run has failed: work was left out.
     void check() const;
 
 private:
@@ -34,7 +34,7 @@ private:
 
     std::shared_ptr<Workers> host_;
     int threads_;
-    Batch batch_;                           // here and not in run, for a host that comes back before its last part has begun
+    Batch batch_;                           // a member, for a host that returns before its last part has begun
     std::vector<std::atomic<bool>> begun_;  // of each part of the run; grows
     std::atomic<bool> broken_ = false;
 };

@@ -6,13 +6,13 @@
 
 namespace percale {
 
-/// When a step should be at its end; by default it may take as long as it takes. The one decision that reads a clock.
+/// The time at which a step should end; by default there is none. The only decision that reads a clock.
 struct Deadline {
     std::optional<std::chrono::steady_clock::time_point> time = {};
-    const std::atomic<bool>* cancel = nullptr;  // true: at once, by its caller's wish (Simulation::set_cancel)
+    const std::atomic<bool>* cancel = nullptr;  // true: end at once, by the caller's wish (Simulation::set_cancel)
 };
 
-/// 0 s: none.
+/// 0 s: no deadline.
 inline Deadline deadline_in(double seconds, const std::atomic<bool>* cancel = nullptr) {
     if (seconds == 0.0) return {{}, cancel};
     return {std::chrono::steady_clock::now() +
@@ -20,13 +20,13 @@ inline Deadline deadline_in(double seconds, const std::atomic<bool>* cancel = nu
             cancel};
 }
 
-/// The deadline of a step, and how many of Newton's iterations it may take beyond for what moves to arrive.
+/// The deadline of a step, and how many further Newton iterations it may take for pins and obstacles to arrive.
 struct TimeBudget {
     Deadline deadline;
     int late_iterations = 0;
 };
 
-/// By so many seconds; cancelled all the same.
+/// Extends a deadline by so many seconds; cancelling stays in effect.
 inline Deadline later(Deadline deadline, double seconds) {
     if (deadline.time)
         *deadline.time += std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));

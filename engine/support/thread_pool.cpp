@@ -14,7 +14,7 @@
 #include "tolerances.h"
 
 #if defined(__SANITIZE_THREAD__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wtsan"  // it does not model fences; what the one below orders are atomics all the same
+#pragma GCC diagnostic ignored "-Wtsan"  // it does not model fences; the fence below orders only atomics
 #endif
 
 namespace percale {
@@ -28,14 +28,15 @@ void relax() {
 
 }  // namespace
 
-/// A run is open while parts are left. A worker says that it is inside, looks whether a run is open and takes parts; the caller
-/// closes the run when no part is left and waits until nobody is inside. Both write first and read then, in one order for all
-/// (the default of atomics), so that one of them sees the other: no worker touches the data of a run that has returned.
+/// A run is open while parts are left. A worker announces that it is inside, checks whether a run is open and takes parts; the
+/// caller closes the run when no part is left and waits until no worker is inside. Both write first and read afterwards, in one
+/// order for all (the default of atomics), so that one of them sees the other: no worker touches the data of a run that has
+/// returned.
 ///
-/// Only as many workers are called as there are parts, each by a line of memory that nobody else looks at: the others go on
-/// sleeping, and a call costs what those few lines cost.
+/// Only as many workers are called as there are parts, each by a cache line of its own: the others continue to sleep, and a call
+/// costs no more than these few lines.
 struct ThreadPool::Shared {
-    /// One thread's line. A stretch of parts that nobody has begun yet is empty between runs.
+    /// One thread's line. A chunk of parts that nobody has begun yet; empty between runs.
     struct alignas(64) Seat {
         std::atomic<int> next = 0;
         int end = 0;
@@ -64,7 +65,7 @@ struct ThreadPool::Shared {
 
     int threads() const { return static_cast<int>(seats.size()); }
 
-    /// Also where not all threads could be started.
+    /// Runs also where not all threads could be started.
     ~Shared() {
         stopping = true;
         ring(threads());
@@ -77,7 +78,7 @@ struct ThreadPool::Shared {
         for (int part = from.next++; part < from.end; part = from.next++) work(data, part, thread);
     }
 
-    /// Its own stretch first, then what is left of the others; with one part a thread only the caller looks at the others.
+    /// Takes its own chunk first, then the rest of the others; with one part a thread only the caller looks at the others.
     void take_parts(int thread) {
         take_parts_of(thread, thread);
         if (thread > 0 && !many_parts) return;
@@ -172,11 +173,11 @@ void ThreadPool::run(int parts, void (*work)(void* data, int part, int slot), vo
 }
 
 std::shared_ptr<Workers> make_workers(int threads) {
-    if (threads < 0 || threads > most_threads) {
+    if (threads < 0 || threads > max_threads) {
         throw SceneError("make_workers: " + std::to_string(threads) + " threads are outside the allowed range 0 ... " +
-                         std::to_string(most_threads));
+                         std::to_string(max_threads));
     }
-    const int cores = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, most_threads);
+    const int cores = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, max_threads);
     return std::make_shared<ThreadPool>(threads == 0 ? cores : threads);
 }
 

@@ -6,8 +6,8 @@
 
 namespace percale {
 
-/// Workers with a stretch of the parts for each thread, so that the same data meet the same caches run after run; who is done
-/// takes over from the others.
+/// Workers with a chunk of the parts for each thread, so that the same data meet the same caches run after run; a thread that
+/// has finished takes over from the others.
 class ThreadPool final : public Workers {
 public:
     /// `threads` >= 1, the caller's included.

@@ -26,7 +26,7 @@ std::unique_ptr<ShapeSource> open_source(const Scene& scene, const ObstacleSpec&
     return std::make_unique<SkinClip>(scene, obstacle);
 }
 
-/// Where the lead-in starts.
+/// The shape at which the lead-in starts.
 std::vector<Vec3> start_of(const Scene& scene, const ObstacleSpec& obstacle, const TriangleMesh& mesh) {
     if (obstacle.start_mesh.empty()) {
         if (obstacle.frames) throw SceneError("lead_in of frames needs start_mesh, the mesh that it starts from");

@@ -7,13 +7,13 @@
 namespace percale::scenes {
 namespace {
 
-/// The keys before and after a tick, the share of the second, and the time between them.
+/// The keys before and after a tick, the weight of the second one, and the time between them.
 struct Between {
     std::size_t before = 0, after = 0;
     double share = 0.0, time = 0.0;
 };
 
-/// Of at least one key.
+/// `times`: at least one.
 Between keys_at(std::span<const double> times, double tick) {
     const auto later = std::upper_bound(times.begin(), times.end(), tick);
     const auto number = static_cast<std::size_t>(later - times.begin());

@@ -17,14 +17,13 @@ struct FramePattern {
     std::string name_of(int frame) const;
 };
 
-/// Throws SceneError where there is other than one %d or %0Nd.
+/// Throws SceneError unless the name holds exactly one %d or %0Nd.
 FramePattern frame_pattern(const std::string& name);
 
-/// An obstacle whose mesh is another in each frame: one file a frame, all with the same triangles, read when it is first needed.
+/// An obstacle with a mesh file for each frame. All files have the same triangles, and each is read when it is first needed.
 class MeshSequence : public SampledShapes {
 public:
-    /// Reads the first frame. Throws SceneError for a file that is missing, any of them, and what import_mesh throws for the
-    /// first.
+    /// Reads the first frame. Throws SceneError if any of the files is missing, and what import_mesh throws for the first one.
     MeshSequence(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings = nullptr);
 
     const TriangleMesh& mesh() const override { return first_; }
@@ -45,7 +44,7 @@ private:
 void check_same_triangles(const TriangleMesh& mesh, const std::string& file, const TriangleMesh& first,
                           const std::string& first_file);
 
-/// Throws SceneError for a mesh of a format of which vertices are joined by their places, which would change from file to file.
+/// Throws SceneError for a mesh in a format whose vertices are joined by position, since that may differ from file to file.
 void check_keeps_vertices(const std::string& mesh, const std::string& what);
 
 }  // namespace percale::scenes

@@ -98,8 +98,8 @@ void PointCache::check_counts(std::int64_t points, std::int64_t samples) const {
     if (points != static_cast<std::int64_t>(mesh_.vertices.size()))
         throw SceneError(file_, "has " + std::to_string(points) + " points, the mesh has " +
                                     std::to_string(mesh_.vertices.size()) + " vertices");
-    if (samples < 2 || samples > most_samples)
-        throw SceneError(file_, "has " + counted(samples, "sample") + ", must be 2 ... " + std::to_string(most_samples));
+    if (samples < 2 || samples > max_samples)
+        throw SceneError(file_, "has " + counted(samples, "sample") + ", must be 2 ... " + std::to_string(max_samples));
     const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file_));
     const std::int64_t claimed = header_ + samples * points * 12;
     if (size < claimed)

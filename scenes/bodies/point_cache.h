@@ -12,9 +12,9 @@ namespace percale::scenes {
 
 /// The vertices of a mesh at many times, from a file of 3ds Max (PC2) or LightWave (MDD), which animation programs write. A
 /// sample is read when it is first needed.
-///   PC2, little endian: "POINTCACHE2", 0, int32 1, int32 points, float32 start, float32 frames a sample, int32 samples; then x,
-///   y, z of every point of every sample, float32. Sample k is there at k frames_a_sample / fps; the start is left out. MDD, big
-///   endian: int32 samples, int32 points, float32 time of each sample, s, taken from the first; then as above.
+///   PC2, little endian: "POINTCACHE2", 0, int32 1, int32 points, float32 start, float32 frames a sample, int32 samples; then
+///   x, y, z of every point of every sample, float32. Sample k is that of the time k frames_a_sample / fps; the start is left
+///   out. MDD, big endian: int32 samples, int32 points, float32 time of each sample, s, taken from the first; then as above.
 class PointCache : public SampledShapes {
 public:
     /// Reads the mesh and the header of obstacle.cache. Throws SceneError where they do not fit, or the file is shorter than its

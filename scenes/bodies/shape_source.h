@@ -8,29 +8,29 @@
 
 namespace percale::scenes {
 
-/// One mesh whose vertices are elsewhere at each time. Lengths in m before the pose, times in s from its own start.
+/// A mesh whose vertices move with time. Lengths in m before the pose, times in s from its own start.
 class ShapeSource {
 public:
     virtual ~ShapeSource() = default;
 
-    /// Its triangles, and its vertices when nothing is played.
+    /// The triangles, and the vertices while nothing is played.
     virtual const TriangleMesh& mesh() const = 0;
     virtual double length() const = 0;
-    /// How long it goes from one shape that it has to the next.
+    /// The time between two of its shapes.
     virtual double frame_time() const = 0;
-    /// Vertices at a time, that of the nearest end outside 0 ... length(). Throws SceneError for a file that cannot be read.
+    /// The vertices at a time; outside 0 ... length() those of the nearer end. Throws SceneError for a file that cannot be read.
     virtual std::vector<Vec3> at(double time) = 0;
     /// "121 frames in 4.84 s"
     virtual std::string text() const = 0;
 };
 
-/// Each vertex a share of the way from one shape to another; the largest displacement of a vertex between two, m; and the
-/// diagonal of a shape's box, m.
+/// The shape at a fraction `share` of the way from one shape to another; the largest displacement of a vertex between two shapes,
+/// m; and the diagonal of a shape's bounding box, m.
 std::vector<Vec3> between(std::vector<Vec3> from, const std::vector<Vec3>& to, double share);
 double largest_displacement(const std::vector<Vec3>& from, const std::vector<Vec3>& to);
 double diagonal(const std::vector<Vec3>& shape);
 
-/// Shapes that are there at some times, straight from one to the next in between. Two of them are kept.
+/// Shapes that are sampled at some times, with linear interpolation in between. Two samples are kept.
 class SampledShapes : public ShapeSource {
 public:
     double length() const override { return times_.back(); }
@@ -48,7 +48,7 @@ protected:
 
 private:
     virtual std::vector<Vec3> load(int sample) const = 0;
-    /// The sample that is not needed beside it makes place.
+    /// Loads the sample unless it is kept; it then replaces the kept one that is not `other`.
     const std::vector<Vec3>& sample(int number, int other);
 
     struct Loaded {

@@ -23,7 +23,7 @@ void check_can_be_animated(const std::string& file) {
     if (!std::filesystem::is_regular_file(file)) throw SceneError(file, "no such file");
 }
 
-/// By name, or else by number.
+/// Finds a clip by its name, or else by its number.
 const ModelClip& clip_named(const Model& model, const std::string& clip, const std::string& file) {
     const std::vector<std::string> names = clip_names(model);
     if (names.empty()) throw SceneError(file, "has no animations, so no clip '" + clip + "'");
@@ -63,7 +63,7 @@ SkinClip::SkinClip(const Scene& scene, const ObstacleSpec& obstacle)
     mesh_ = joined_.mesh;
 }
 
-/// Vertices at one place are one if the clip keeps them together: at rest and at some times.
+/// Vertices at one place become one if the clip keeps them together at rest and at some times.
 void SkinClip::weld_alike() {
     skinned_.emplace(joined_.model, joined_.origins);
     std::vector<std::vector<Vec3>> shapes = {joined_.mesh.vertices};

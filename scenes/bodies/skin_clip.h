@@ -19,7 +19,7 @@ public:
     SkinClip(const SkinClip&) = delete;
     SkinClip& operator=(const SkinClip&) = delete;
 
-    /// In its rest pose.
+    /// The mesh in its rest pose.
     const TriangleMesh& mesh() const override { return mesh_; }
     double length() const override { return length_; }
     double frame_time() const override { return 1.0 / ObstacleSpec::usual_fps; }
@@ -28,7 +28,7 @@ public:
 
 private:
     void weld_alike();
-    /// At a tick of the clip.
+    /// The vertices at a tick of the clip.
     std::vector<Vec3> shape(double tick) const;
 
     std::string file_;

@@ -16,7 +16,7 @@ void append_little(std::string& bytes, Whole number) {
     for (std::size_t k = 0; k < sizeof number; ++k) bytes += static_cast<char>(static_cast<std::uint8_t>(number >> (8 * k)));
 }
 
-/// The highest first.
+/// The same, the highest byte first.
 template <class Whole>
 void append_big(std::string& bytes, Whole number) {
     static_assert(std::is_unsigned_v<Whole>);

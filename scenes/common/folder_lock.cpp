@@ -13,7 +13,7 @@
 namespace percale::scenes {
 
 FolderLock::FolderLock(const std::string& folder) {
-    // As OutputFolder makes it: "none/../out" is out, though there is no none.
+    // OutputFolder normalises paths likewise: "none/../out" is "out", even if there is no folder "none".
     opened_ = open(std::filesystem::path(folder).lexically_normal().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (opened_ < 0 && errno != ENOENT)
         throw SceneError(folder, std::string("cannot be kept from other runs: ") + std::strerror(errno));

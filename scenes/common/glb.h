@@ -12,11 +12,11 @@ enum class GlbTarget : int { none = 0, vertices = 34962, indices = 34963 };
 /// Types of chunks: "JSON" and "BIN".
 inline constexpr std::uint32_t glb_json_chunk = 0x4E4F534A, glb_binary_chunk = 0x004E4942;
 
-/// The largest file that a header can tell of, bytes.
-inline constexpr std::uint64_t most_glb_bytes = 0xffffffffu;
+/// The largest file size that a header can state, bytes.
+inline constexpr std::uint64_t max_glb_bytes = 0xffffffffu;
 
 /// What stands before the bytes of a GLB file's buffer: header, the JSON chunk padded with spaces, the buffer chunk's header. The
-/// number of its bytes is a multiple of 4. Throws SceneError for more than a header can tell of.
+/// number of its bytes is a multiple of 4. Throws SceneError for more than a header can state.
 std::string glb_start(std::string json, std::uint64_t buffer_bytes);
 
 }  // namespace percale::scenes

@@ -13,7 +13,7 @@ namespace {
 
 std::string reason() { return std::strerror(errno != 0 ? errno : EIO); }
 
-/// Two letters with a zero behind or before each, as no other text begins.
+/// Whether a text begins with two letters that have a zero behind or before each of them, as only one of wide characters does.
 bool begins_wide(std::string_view text) {
     if (text.size() < 4) return false;
     const auto zeros = [&](std::size_t at) { return text[at] == 0 && text[at + 2] == 0; };

@@ -12,7 +12,7 @@ namespace percale::scenes {
 
 namespace {
 
-/// Of dl_iterate_phdr.
+/// The callback of dl_iterate_phdr.
 int add_own_library(dl_phdr_info* loaded, std::size_t, void* libraries) {
     const std::string file = loaded->dlpi_name;
     if (std::filesystem::path(file).filename().string().find("libpercale") != std::string::npos)

@@ -13,11 +13,11 @@ std::string number_text(double value);
 /// Three digits: 0.0167, 1.2e+07.
 std::string short_number(double value);
 
-/// A share in percent: "12 %", "0.4 %".
+/// A fraction as a percentage: "12 %", "0.4 %".
 std::string percent_text(double share);
 
-/// For a text where a number must be: "; decimals take a point: 0.005" of "0,005", "; a number is written without its unit: 5" of
-/// "5 N", with mm, cm, g and ms in m, kg and s. "" where the text is no such number.
+/// Advice on a text that should be a number: "; decimals take a point: 0.005" for "0,005", "; a number is written without its
+/// unit: 5" for "5 N", with mm, cm, g and ms converted to m, kg and s. "" where the text is no such number.
 std::string number_advice(const std::string& text);
 
 /// "1 step", "12 steps".
@@ -26,7 +26,7 @@ std::string counted(long count, const std::string& what);
 /// "smallest distance 0.0032 m", or "never near" where it is infinite.
 std::string nearness_text(double smallest_distance);
 
-/// Of a hash or checksum: 16 digits, "00000000075bcd15".
+/// A hash or checksum as 16 digits, "00000000075bcd15".
 std::string hexadecimal(std::uint64_t value);
 
 /// "a, b, c".

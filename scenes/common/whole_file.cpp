@@ -19,7 +19,7 @@ namespace {
     throw SceneError(file + ": cannot be written: " + std::strerror(errno != 0 ? errno : EIO));
 }
 
-/// Has the disk take what was written to a file or, in a folder, which files it holds.
+/// Makes the disk store what was written to a file or, for a folder, its list of files.
 void sync_path(const std::string& path, const std::string& file) {
     const int opened = open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (opened < 0) refuse(file);

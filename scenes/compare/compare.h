@@ -13,16 +13,16 @@ namespace percale::scenes {
 struct CompareSettings {
     std::vector<std::string> schemes = {};  // empty: all that take the scene
     std::vector<double> steps = {};         // s
-    std::vector<double> tolerances = {};    // m/s, of adaptive steps. Both empty: of each scheme the largest of 1/60 s / 2^k that
-                                            // survives and three halvings, and of tr_bdf2 three tolerances
+    std::vector<double> tolerances = {};    // m/s, of adaptive steps. If both are empty: the largest of 1/60 s / 2^k that a
+                                            // scheme survives and three halvings of it; for tr_bdf2 three tolerances, too
     int repeats = 3;                        // runs of each, of which the fastest counts
-    double reference_error = 1e-9;          // m rms, the reference is refined to
+    double reference_error = 1e-9;          // m rms, to which the reference is refined
 };
 
 struct ComparedRun {
     Variant variant = {};
-    VariantRun run = {};   // its CPU time the least of the repeats
-    Distances error = {};  // against the reference; not numbers where the run did not finish
+    VariantRun run = {};   // its CPU time is the smallest of the repeats
+    Distances error = {};  // against the reference; NaN where the run did not finish
 };
 
 struct Comparison {
@@ -35,7 +35,7 @@ struct Comparison {
     /// The error that runs are ranked by, m: rms over vertices; in chaotic scenes the largest of centre of mass, lowest vertex
     /// and stretch over the extent of the cloth.
     double rank_of(const Distances& distances) const;
-    /// Whether the reference is good enough to tell this error.
+    /// Whether this error is above the uncertainty of the reference.
     bool resolved(const ComparedRun& run) const { return rank_of(run.error) > rank_of(reference.uncertainty); }
 };
 

@@ -16,8 +16,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Candidate {
     const char* scheme;
-    bool contact;         // takes it
-    double vertex_steps;  // a run may take: about 10 s of one core
+    bool contact;         // whether the scheme takes contact
+    double vertex_steps;  // maximum of a run: about 10 s of one core
     int patience;         // contact, whose depth depends on the step, takes a few halvings to begin to converge
 };
 constexpr std::array<Candidate, 3> candidates = {
@@ -61,7 +61,7 @@ bool Refinement::halve() {
     coarse_ = std::exchange(fine_, {step, std::move(run)});
     const Distances change = distances_between(coarse_.run.state, fine_.run.state);
     uncertainty_ = richardson(change, change_);
-    stalled_ = change.rms * least_halving_progress > change_ ? stalled_ + 1 : 0;
+    stalled_ = change.rms * min_halving_progress > change_ ? stalled_ + 1 : 0;
     change_ = change.rms;
     return true;
 }
@@ -100,7 +100,7 @@ bool has_contact(const SceneSource& source) { return source({}).has_contact(); }
 std::optional<Survivor> largest_surviving_step(const SceneSource& source, const std::string& scheme,
                                                const std::function<bool()>& stop_asked) {
     double step = largest_compared_step;
-    for (int k = 0; k <= most_step_halvings; ++k, step *= 0.5) {
+    for (int k = 0; k <= max_step_halvings; ++k, step *= 0.5) {
         VariantRun run = run_variant(source, {.scheme = scheme, .time_step = step}, stop_asked);
         if (run.end == VariantEnd::refused) throw SceneError(run.reason);
         if (run.end == VariantEnd::finished && run.state.stretch < torn_stretch) return Survivor{step, std::move(run)};
@@ -109,13 +109,13 @@ std::optional<Survivor> largest_surviving_step(const SceneSource& source, const 
 }
 
 Distances richardson(const Distances& change, double before) {
-    const double ratio = std::min(before / change.rms, most_richardson_ratio);
-    return std::isfinite(before) && ratio >= least_richardson_ratio ? scaled(change, 1.0 / (ratio - 1.0)) : change;
+    const double ratio = std::min(before / change.rms, max_richardson_ratio);
+    return std::isfinite(before) && ratio >= min_richardson_ratio ? scaled(change, 1.0 / (ratio - 1.0)) : change;
 }
 
 Reference make_reference(const SceneSource& source, double wanted, const std::function<bool()>& stop_asked) {
     const bool contact = has_contact(source);
-    std::string refused;  // what projection, for one, is by tr_bdf2
+    std::string refused;  // why a scheme refused the scene, as tr_bdf2 refuses projection
     for (const Candidate& candidate : candidates) {
         if (contact && !candidate.contact) continue;
         Refinement refinement(source, candidate, stop_asked);

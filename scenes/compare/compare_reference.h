@@ -22,8 +22,8 @@ struct Survivor {
     VariantRun run = {};
 };
 
-/// With the largest of the steps 1/60 s / 2^k, k = 0 ... 14, at which a scheme brings the scene to an end without an edge of
-/// eleven times its length; nothing if there is none. Throws SceneError with the reason where the scheme is refused.
+/// The run with the largest of the steps 1/60 s / 2^k, k = 0 ... 14, at which a scheme brings the scene to its end and no edge
+/// reaches eleven times its length; nothing if there is none. Throws SceneError with the reason where the scheme is refused.
 std::optional<Survivor> largest_surviving_step(const SceneSource& source, const std::string& scheme,
                                                const std::function<bool()>& stop_asked);
 
@@ -33,9 +33,9 @@ std::optional<Survivor> largest_surviving_step(const SceneSource& source, const 
 /// scene to an end.
 Reference make_reference(const SceneSource& source, double wanted, const std::function<bool()>& stop_asked);
 
-/// The error of the finer of two runs, the step of one being half of the other's: c/(r - 1) with c what the halving changed and r
-/// how much smaller that is than what the halving before it changed, 2 <= r <= 16, or c itself where r < 2 or unknown.
-/// `before`: that, m rms; infinity if there was none.
+/// The error of the finer of two runs, one with half of the other's step: c/(r - 1), where c is the change by this halving and r
+/// <= 16 the ratio of the change by the previous halving to c; c itself where r < 2 or r is unknown. `before`: the change by the
+/// previous halving, m rms; infinity if there was none.
 Distances richardson(const Distances& change, double before);
 
 }  // namespace percale::scenes

@@ -12,11 +12,12 @@ namespace percale::scenes {
 /// What is compared with what, and how well the reference is known.
 std::string reference_text(const Reference& reference);
 
-/// One aligned line a run under a line of headings. Errors that the reference cannot tell from 0 are written as "< its
+/// One aligned line a run under a line of headings. An error that the reference cannot distinguish from 0 is written as "< its
 /// uncertainty".
 std::string comparison_table(const Comparison& comparison);
 
-/// The same for programs, with all errors: the reference first, its errors being its uncertainty. What was not measured is empty.
+/// The same for programs, with all errors. The reference comes first, and its errors are its uncertainty. What was not measured
+/// is empty.
 std::string comparison_csv(const Comparison& comparison);
 
 /// The cheapest run whose error is certainly at most `largest_error` m (the uncertainty of the reference added); null: none.

@@ -48,15 +48,15 @@ struct VariantRun {
     std::string reason = {};  // why, if not finished
     EndState state = {};      // of a finished run
     RunTotals totals = {};
-    int steps = 0;     // accepted, those that an adaptive step consists of each
+    int steps = 0;     // accepted; each of those that an adaptive step consists of counts
     int rejected = 0;  // tried and found too inexact, or redone as shorter ones
 };
 
-/// No frames but the first and no expectations.
+/// Removes all frames but the first, and all expectations.
 void leave_only_steps(Scene& scene);
 
 /// Steps a scene to its end without writing, measuring or judging anything. `disturbance`: every free vertex starts so far, m,
-/// from where it should, in directions that depend on its number alone. What the scheme refuses (an explicit one takes no
+/// from where it should, in directions that depend on its number alone. A refusal by the scheme (an explicit one takes no
 /// obstacles) is an end like any other. Throws SceneError where the scene itself is wrong, ComparisonStopped after a stop.
 VariantRun run_variant(const SceneSource& source, const Variant& variant, const std::function<bool()>& stop_asked,
                        double disturbance = 0.0);
@@ -74,7 +74,7 @@ struct Distances {
 /// The two must have equally many vertices.
 Distances distances_between(const EndState& a, const EndState& b);
 Distances scaled(const Distances& distances, double factor);
-/// The larger of each.
+/// The larger one of each of the distances.
 Distances larger(const Distances& a, const Distances& b);
 
 }  // namespace percale::scenes

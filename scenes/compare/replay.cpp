@@ -13,7 +13,7 @@ namespace percale::scenes {
 
 namespace {
 
-/// Where a column stands.
+/// The number of a column.
 std::size_t column(const std::vector<std::string>& header, const std::string& name, const std::string& file) {
     if (const std::optional<std::size_t> found = csv_column(header, name)) return *found;
     throw SceneError(file + ":1: is no table of steps: it has no column '" + name + "'");

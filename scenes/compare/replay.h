@@ -6,7 +6,7 @@
 
 namespace percale::scenes {
 
-/// What tells the steps of two runs apart, as steps.csv has it.
+/// What distinguishes the steps of two runs, as steps.csv holds it.
 struct StepHashes {
     std::string time;  // s
     std::string status;

@@ -46,7 +46,7 @@ public:
             {.severity = severity, .kind = kind, .role = mesh_.role, .place = mesh_.place, .what = prefix + what, .fix = fix});
     }
 
-    /// Where there are such elements; the sentence is "12 WHAT: 3, 7, 8, 9, ..." (see counted_kind).
+    /// Adds a finding if there are any elements; its sentence is "12 WHAT: 3, 7, 8, 9, ..." (see counted_kind).
     template <class Element>
     void add_elements(Severity severity, const std::string& kind, const std::vector<Element>& elements, const std::string& what,
                       const std::string& fix) {
@@ -64,14 +64,14 @@ private:
     std::vector<Finding> found_;
 };
 
-/// m per unit that a mesh looks as if it had.
+/// The unit that a mesh seems to have, m.
 double likely_unit(const ExaminedMesh& mesh) {
     const double extent = mesh.facts.extent();
     if (!mesh.from_file || !(extent >= centimetre_extent)) return 1.0;
     return extent < millimetre_extent ? 0.01 : 0.001;
 }
 
-/// "unit = "cm""; of one that is not m.
+/// "unit = "cm"", for a unit other than m.
 std::string unit_text(double unit) { return std::string("unit = \"") + (unit == 0.01 ? "cm" : "mm") + "\""; }
 
 void find_size(const ExaminedMesh& mesh, Findings& found) {
@@ -96,7 +96,7 @@ void find_size(const ExaminedMesh& mesh, Findings& found) {
                   short_number(back.z()) + "], or in the mesh itself");
 }
 
-/// Beyond this exact tests of orientation overflow.
+/// Whether a coordinate is so large that the exact tests of orientation overflow; adds the finding.
 bool is_beyond_tests(const ExaminedMesh& mesh, Findings& found) {
     if (mesh.facts.farthest() <= largest_coordinate) return false;
     found.add(Severity::error, "size", "its coordinates reach " + short_number(mesh.facts.farthest()) + " m, 1e75 m at most",
@@ -105,11 +105,11 @@ bool is_beyond_tests(const ExaminedMesh& mesh, Findings& found) {
 }
 
 CrossingSearch search_crossings(const TriangleMesh& mesh) {
-    return find_crossings(mesh, most_crossings,
-                          std::max(least_crossing_tests, crossing_tests_per_triangle * static_cast<long>(mesh.triangles.size())));
+    return find_crossings(mesh, max_crossings,
+                          std::max(min_crossing_tests, crossing_tests_per_triangle * static_cast<long>(mesh.triangles.size())));
 }
 
-/// Without the triangles that a run leaves out of cloth; the others with their numbers.
+/// The mesh without the triangles that a run leaves out of cloth; the others keep their numbers.
 JoinedMesh without_repeated(const TriangleMesh& mesh) {
     const std::vector<int> repeated = repeated_triangles(mesh.triangles);
     JoinedMesh kept{.mesh = {.vertices = mesh.vertices, .triangles = {}}, .number = {}};
@@ -121,7 +121,7 @@ JoinedMesh without_repeated(const TriangleMesh& mesh) {
     return kept;
 }
 
-/// Of the mesh as its role sees it.
+/// `joined`: the mesh as its role sees it.
 void find_self_crossing(const JoinedMesh& joined, Severity severity, const std::string& fix, Findings& found) {
     const CrossingSearch search = search_crossings(joined.mesh);
     std::vector<VertexPair> pairs;
@@ -133,7 +133,7 @@ void find_self_crossing(const JoinedMesh& joined, Severity severity, const std::
               "mesh it with triangles of more even size, such as a grid in place of a fan");
 }
 
-/// What cloth has not got, and faults for which it is refused.
+/// Adds elements that a run leaves out of cloth, and faults for which cloth is refused.
 void find_refused_cloth(const MeshFacts& facts, Findings& found) {
     found.add_elements(
         Severity::note, "unused_vertices", facts.unused_vertices, "vertex|vertices of no triangle, left out",
@@ -148,26 +148,26 @@ void find_refused_cloth(const MeshFacts& facts, Findings& found) {
                        "split the mesh along them, and sew the parts together with a [[seam]]");
 }
 
-/// To one digit, of a number above 0.
+/// A number above 0, rounded up to one digit.
 double rounded_up(double value) {
     const double digit = std::pow(10.0, std::floor(std::log10(value)));
     return std::ceil(value / digit) * digit;
 }
 
-/// The weld that joins rims so far apart, with "; or " behind it; "" where it would take many triangles with it, or is too long.
+/// The weld that joins rims so far apart, with "; or " behind it; "" where it would remove many triangles, or is too long.
 std::string weld_text(const ExaminedMesh& mesh, const TriangleMesh& surface, double widest) {
     const double weld = rounded_up(beyond_widest_gap * widest), unit = likely_unit(mesh);
     const double dropped = weld_near(surface, weld).dropped_triangles;
     const double said = weld * unit / mesh.scale;
-    if (dropped > dropped_by_weld * static_cast<double>(surface.triangles.size()) || said > most_weld) return "";
+    if (dropped > dropped_by_weld * static_cast<double>(surface.triangles.size()) || said > max_weld) return "";
     const std::string with = unit == 1.0 ? "" : " with " + unit_text(unit);
     return "weld = " + short_number(said) + with + " beside its mesh (m; --weld of percale drape) joins them; or ";
 }
 
-/// Of its mesh as its role sees it. `more`: what else mends them.
+/// `surface`: the mesh as its role sees it; `more`: what else mends the rims.
 void find_near_rims(const ExaminedMesh& mesh, const TriangleMesh& surface, const MeshFacts& facts, const std::string& open,
                     const std::string& more, Findings& found) {
-    const double near = near_rim_share * facts.median_edge;
+    const double near = near_rim_ratio * facts.median_edge;
     if (!(near > 0.0)) return;
     const NearRims rims = near_rims(surface, facts, near);
     if (rims.vertices.empty()) return;
@@ -184,7 +184,7 @@ void find_cloth_shape(const ExaminedMesh& cloth, const Fabric& fabric, Findings&
                        "pair|pairs of vertices opposite an edge at the same place, where a bending spring has no length",
                        "unfold the mesh there, or set springs.bend = 0");
     const bool welds = cloth.from_file && !cloth.sewn && facts.median_edge > 0.0;
-    const std::string join = (welds ? weld_text(cloth, cloth.mesh, same_place_share * facts.median_edge) : "") +
+    const std::string join = (welds ? weld_text(cloth, cloth.mesh, same_place_ratio * facts.median_edge) : "") +
                              "merge vertices by distance in the mesh, or sew them (a [[seam]], lines \"stitch\" in the OBJ file)";
     found.add_elements(Severity::warning, "repeated_places", facts.repeated_places,
                        "vertex|vertices at the place of an earlier one, not joined to it: the cloth comes apart there", join);
@@ -203,7 +203,7 @@ void find_cloth_shape(const ExaminedMesh& cloth, const Fabric& fabric, Findings&
 void find_cloth_edges(const ExaminedMesh& cloth, const Fabric& fabric, Findings& found) {
     const MeshFacts& facts = cloth.facts;
     const std::string shortest = short_number(facts.shortest_edge), longest = short_number(facts.longest_edge);
-    if (facts.shortest_edge > 0.0 && facts.longest_edge > most_edge_ratio * facts.shortest_edge)
+    if (facts.shortest_edge > 0.0 && facts.longest_edge > max_edge_ratio * facts.shortest_edge)
         found.add(Severity::warning, "edge_lengths", "its edges are " + shortest + " to " + longest + " m long",
                   "remesh it with edges of about " + short_number(facts.median_edge) + " m, its median");
     if (facts.parts > 1 && !cloth.sewn)
@@ -220,15 +220,15 @@ void find_cloth_edges(const ExaminedMesh& cloth, const Fabric& fabric, Findings&
         found.add(Severity::note, "thick_for_edges",
                   thickness + "more than its shortest edge, " + shortest + " m: with self_contact such places keep less",
                   "set thickness = " + shortest + " or below in its fabric for an even gap");
-    if (fabric.thickness < least_thickness_of_place * facts.farthest())
+    if (fabric.thickness < min_thickness_of_place * facts.farthest())
         found.add(Severity::warning, "thin_for_place",
                   thickness + "too little " + short_number(facts.farthest()) + " m from the origin: gaps of a thousandth of it" +
                       " drown in rounding",
-                  "move the scene to the origin, or set thickness = " +
-                      short_number(least_thickness_of_place * facts.farthest()) + " or above");
+                  "move the scene to the origin, or set thickness = " + short_number(min_thickness_of_place * facts.farthest()) +
+                      " or above");
 }
 
-/// What cleaning leaves out before the first step, silently as far as the run is concerned.
+/// Adds what cleaning leaves out before the first step, which a run does not mention.
 void find_cleaning(const ExaminedMesh& obstacle, Findings& found) {
     const CleaningReport report = cleaning_report(obstacle.mesh);
     const auto note = [&](const std::string& kind, long count, const std::string& what, const std::string& fix) {

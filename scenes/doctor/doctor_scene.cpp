@@ -72,7 +72,7 @@ std::optional<ExaminedMesh> read_mesh(const Spec& spec, MeshRole role, std::vect
     return mesh;
 }
 
-/// By a seam, or as patterns are.
+/// Whether a seam sews the cloth to itself, or it is a pattern, which is sewn.
 bool is_sewn_to_itself(const Scene& scene, const ClothSpec& cloth) {
     const auto joins = [&](const SeamSpec& seam) {
         return !seam.cloths || ((*seam.cloths)[0] == cloth.name && (*seam.cloths)[1] == cloth.name);
@@ -168,8 +168,8 @@ void find_flutter(const Scene& scene, std::vector<Finding>& found) {
         {.severity = Severity::warning,
          .kind = "flutter",
          .place = place_text(last->place),
-         .what = "duration is \"rest\" and this wind never ends: cloth that flutters is not at rest within longest = " +
-                 short_number(scene.longest) + " s, and the run fails",
+         .what = "duration is \"rest\" and this wind never ends: cloth that flutters is not at rest within max_duration = " +
+                 short_number(scene.max_duration) + " s, and the run fails",
          .fix = "end it by an event with wind = [0, 0, 0], or say a duration in s"});
 }
 
@@ -202,7 +202,7 @@ void find_idle_expectations(const Scene& scene, const Meshes& meshes, std::vecto
     }
 }
 
-double least_thickness(const Scene& scene) {
+double min_thickness(const Scene& scene) {
     double thickness = 1.0;
     for (const ClothSpec& cloth : scene.cloths) {
         const auto fabric = scene.fabrics.find(cloth.fabric);
@@ -212,8 +212,8 @@ double least_thickness(const Scene& scene) {
 }
 
 /// Largest number of parts that a step asks for: turns of 15 degrees, or four thicknesses of still cloth.
-double most_parts(const Scene& scene, const ObstacleSpec& obstacle) {
-    const double thickness = least_thickness(scene);
+double max_parts(const Scene& scene, const ObstacleSpec& obstacle) {
+    const double thickness = min_thickness(scene);
     const double dt = scene.step.time_step;
     std::vector<double> starts = {0.0, obstacle.spin ? obstacle.spin->from : 0.0};
     for (std::size_t i = 1; i < obstacle.motion.size(); ++i)
@@ -230,7 +230,7 @@ double most_parts(const Scene& scene, const ObstacleSpec& obstacle) {
 
 void find_fast_motion(const Scene& scene, std::vector<Finding>& found) {
     for (const ObstacleSpec& obstacle : scene.obstacles) {
-        const double parts = most_parts(scene, obstacle);
+        const double parts = max_parts(scene, obstacle);
         if (parts <= 1.0) continue;
         found.push_back({.severity = parts > dear_motion_parts ? Severity::warning : Severity::note,
                          .kind = "fast_obstacle",
@@ -242,7 +242,7 @@ void find_fast_motion(const Scene& scene, std::vector<Finding>& found) {
     }
 }
 
-/// How far a vertex of a body goes in a step, m, at most, and when.
+/// The largest displacement of a vertex of a body in a step, m, and its time.
 struct FastestShape {
     double displacement = 0.0, time = 0.0;
 };
@@ -250,8 +250,8 @@ struct FastestShape {
 /// Looks at every shape once, from where it begins to move.
 FastestShape fastest_shape(BodyShapes& shapes, const ObstacleSpec& obstacle, double end, double dt) {
     FastestShape fastest;
-    const double interval = std::max(std::min(shapes.frame_time(), dt), least_time_between_shapes), from = obstacle.play_from;
-    const double last = std::min({end, shapes.once(), from + most_shapes_looked_at * interval});
+    const double interval = std::max(std::min(shapes.frame_time(), dt), min_time_between_shapes), from = obstacle.play_from;
+    const double last = std::min({end, shapes.once(), from + max_shapes_looked_at * interval});
     std::vector<Vec3> before = shapes.at(from);
     for (int k = 1; from + (k - 1) * interval < last; ++k) {
         std::vector<Vec3> now = shapes.at(from + k * interval);
@@ -262,12 +262,12 @@ FastestShape fastest_shape(BodyShapes& shapes, const ObstacleSpec& obstacle, dou
     return fastest;
 }
 
-/// Frames that cannot be read, and such that go far in a step.
+/// Finds frames that cannot be read, and frames in which a vertex moves far in a step.
 void examine_shapes(const Scene& scene, const ObstacleSpec& obstacle, std::vector<Finding>& found) {
     try {
         BodyShapes shapes(scene, obstacle);
         const FastestShape fastest = fastest_shape(shapes, obstacle, scene.latest_end(), scene.step.time_step);
-        const double parts = obstacle.pose.scale * fastest.displacement / (bending_part_travel * least_thickness(scene));
+        const double parts = obstacle.pose.scale * fastest.displacement / (bending_part_travel * min_thickness(scene));
         if (parts <= 1.0) return;
         found.push_back({.severity = parts > bending_jump_parts ? Severity::warning : Severity::note,
                          .kind = "fast_obstacle",
@@ -306,7 +306,7 @@ Finding plan_warning(const Scene& scene, const ScenePlan& plan, const std::strin
     if (!flies_apart) return finding;
     finding.severity = Severity::error;
     finding.kind = "unstable_step";
-    finding.fix = "set step.time_step = " + short_number(advised_stable_share * plan.stable_step) +
+    finding.fix = "set step.time_step = " + short_number(advised_stable_ratio * plan.stable_step) +
                   " or below, or step.scheme = \"backward_euler\"";
     return finding;
 }
@@ -324,7 +324,7 @@ void find_start_moves(const BuiltScene& built, std::vector<Finding>& found) {
     }
 }
 
-/// Pins in the world that a body is going to leave behind; what events do to pins is meant.
+/// Finds pins in the world that a body will leave behind; what events do to pins is taken as intended.
 void find_left_pins(const BuiltScene& built, std::vector<Finding>& found) {
     const Scene& scene = built.scene;
     for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
@@ -424,7 +424,7 @@ std::vector<Finding> examine_cost(const BuiltScene& built, const ScenePlan& plan
     const double seconds = steps * plan.evaluations_a_step * springs * seconds_a_spring;
     if (seconds > much_time)
         warn("long_run", short_number(steps) + " steps will take about " + duration_text(seconds) + ", without contact",
-             (scene.until_rest ? "lower longest" : "shorten duration") +
+             (scene.until_rest ? "lower max_duration" : "shorten duration") +
                  std::string(", take a larger step.time_step, or fewer vertices"));
     if (plan.memory_bytes > much_memory)
         warn("much_memory", "it will take about " + short_number(1e-9 * plan.memory_bytes) + " GB of memory",

@@ -9,7 +9,7 @@
 namespace percale::scenes {
 namespace {
 
-/// Who names vertices of which cloth.
+/// A part of the scene that names vertices of a cloth.
 struct Named {
     const VertexSelection* vertices = nullptr;
     std::string cloth;

@@ -28,15 +28,15 @@ struct Drape {
     RestFigures rest = {};
     int unsolved_steps = 0;           // of RunTotals
     bool met = false;                 // whether a garment ever had contact with the body
-    std::vector<double> height = {};  // m: of each garment in the mean, when it was sewn and got its weight
+    std::vector<double> height = {};  // m, mean of each garment when it was sewn and gravity set in
 };
 
-/// Steps until all garments are at rest, the time is up, or all have fallen below the body; when the seams have closed there is
-/// weight. `stop` is asked after each step, with the simulated time in s. `again`: what is not sewn when the seams should have
-/// closed is given up, so that it can be sewn in another time.
+/// Steps until all garments are at rest, the time is up, or all have fallen below the body; gravity sets in when the seams have
+/// closed. `stop` is asked after each step, with the simulated time in s. `again`: a garment that is not sewn when its seams
+/// should have closed is given up, so that another sewing time can be tried.
 Drape settle(BuiltScene& built, const DrapeOptions& options, const std::function<bool(double)>& stop, bool again = false);
 
-/// m: of the vertices of a cloth in the mean.
+/// The mean height of the vertices of a cloth, m.
 double mean_height(const Simulation& simulation, ClothId cloth);
 
 }  // namespace percale::scenes

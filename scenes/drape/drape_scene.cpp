@@ -20,9 +20,9 @@ namespace {
 
 /// How a pattern is sewn.
 constexpr double sewing_stiffness = 3000.0;  // N/m
-/// Of a preset, so that hems come to rest within seconds.
+/// The damping of a preset, with which hems come to rest within seconds.
 constexpr double sewing_damping = 0.02;  // s
-/// A preset's moduli hold on patterns; on meshes that do not say where warp is they are made isotropic, which is warned of.
+/// A preset's moduli hold on patterns; on meshes without a direction of warp they are made isotropic, with a warning.
 constexpr const char *mesh_fabric = "mesh", *sewn_mesh_fabric = "sewn mesh", *pattern_fabric = "pattern";
 
 bool is_pattern(const std::string& garment) {
@@ -30,7 +30,7 @@ bool is_pattern(const std::string& garment) {
     return extension == ".toml" || extension == ".json";
 }
 
-/// Its file's name, with a number where another garment has it.
+/// The name of its file, with a number if another garment has that name.
 std::string garment_name(const std::string& file, const Scene& scene) {
     const std::string stem = std::filesystem::path(file).stem().string();
     const auto known = [&](const std::string& name) {
@@ -82,7 +82,7 @@ private:
         Scene& scene = made_.scene;
         scene.file = "drape";
         scene.until_rest = true;
-        scene.longest = options_.seconds;
+        scene.max_duration = options_.seconds;
         scene.step.kinetic_damping = true;
         scene.step.rest_speed = options_.still;
     }
@@ -114,7 +114,7 @@ private:
         if (made_.z_up) turn_ = {.w = std::sqrt(0.5), .x = -std::sqrt(0.5)};
     }
 
-    /// m. A `body` of 0 m says nothing of the size.
+    /// The unit of a file, m. A `body` of 0 m says nothing about the size.
     double unit_of(const std::string& file, const std::string& said, const char* option, double extent, double body) {
         if (!said.empty()) return metres_of_unit(said).value();
         const std::string unit = guessed_unit(extent, body);
@@ -176,15 +176,15 @@ private:
         made_.scene.cloths.push_back(cloth);
     }
 
-    /// A garment is sewn when those below it are, without weight.
+    /// A garment is sewn after those below it, without gravity.
     void add_seam(const ClothSpec& cloth, bool weld) {
         Scene& scene = made_.scene;
         scene.step.gravity = Vec3::Zero();
         SeamSpec seam;
         seam.cloths = {cloth.name, cloth.name};
         seam.file = "mesh";
-        seam.from = options_.sewing_time * static_cast<double>(scene.seams.size());
-        seam.over = options_.sewing_time;
+        seam.start_time = options_.sewing_time * static_cast<double>(scene.seams.size());
+        seam.duration = options_.sewing_time;
         seam.stiffness = sewing_stiffness;
         seam.contact_while_closing = false;
         seam.weld = weld;
@@ -205,7 +205,8 @@ private:
         made_.scene.obstacles.push_back(body);
     }
 
-    /// What is an error building the scene refuses. Where the mesh itself is to be mended, it is said how.
+    /// Notes the warnings of the doctor; errors are refused when the scene is built. Where the mesh itself has to be mended, the
+    /// note says how.
     void ask_doctor() {
         const auto among = [](const Finding& finding, std::initializer_list<std::string_view> kinds) {
             return std::ranges::find(kinds, finding.kind) != kinds.end();
@@ -237,8 +238,8 @@ void check_drape(const DrapeOptions& options) {
     }
     if (!options.up.empty() && options.up != "y" && options.up != "z")
         throw SceneError("--up " + options.up + ": must be y or z");
-    if (!(options.weld >= 0.0 && options.weld <= most_weld))
-        throw SceneError("--weld: is outside the allowed range 0 ... " + short_number(most_weld) + " m");
+    if (!(options.weld >= 0.0 && options.weld <= max_weld))
+        throw SceneError("--weld: is outside the allowed range 0 ... " + short_number(max_weld) + " m");
     if (!(options.scale >= 0.01 && options.scale <= 100.0))
         throw SceneError("--scale: is outside the allowed range 0.01 ... 100");
     if (!(options.seconds > 0.0 && options.seconds <= 3600.0))
@@ -269,7 +270,7 @@ std::string guessed_unit(double extent, double body) {
         if (extent >= millimetre_extent) return "mm";
         return extent >= centimetre_extent ? "cm" : "m";
     }
-    if (extent < least_huge_garment || extent < huge_garment_ratio * body) return "m";
+    if (extent < min_huge_garment || extent < huge_garment_ratio * body) return "m";
     const auto misfit = [&](const char* unit) {
         return std::abs(std::log(*metres_of_unit(unit) * extent / (garment_ratio * body)));
     };
@@ -277,12 +278,14 @@ std::string guessed_unit(double extent, double body) {
 }
 
 bool stands_along_z(const Vec3& extent) {
-    return extent.z() > standing_ratio * extent.y() && extent.y() > least_standing_depth * extent.maxCoeff();
+    return extent.z() > standing_ratio * extent.y() && extent.y() > min_standing_depth * extent.maxCoeff();
 }
 
 DrapeScene drape_scene(const DrapeOptions& options) { return DrapeScenes(options).make(); }
 
-double sewing_end(const Scene& scene) { return scene.seams.empty() ? 0.0 : scene.seams.back().from + scene.seams.back().over; }
+double sewing_end(const Scene& scene) {
+    return scene.seams.empty() ? 0.0 : scene.seams.back().start_time + scene.seams.back().duration;
+}
 
 std::vector<double> sewing_times(const DrapeOptions& options) {
     std::vector<double> times = {options.sewing_time};

@@ -10,7 +10,7 @@
 
 namespace percale::scenes {
 
-/// What garments are to be draped over what body, and how. Files are told from each other by their endings.
+/// Which garments are to be draped over which body, and how. The ending of a file says what it is.
 struct DrapeOptions {
     std::vector<std::string> files;                  // garments from the inside out, then the body
     std::vector<std::string> outs;                   // one a garment
@@ -31,7 +31,7 @@ struct DrapeOptions {
     double sewing_time = 1.0;   // s, of each garment
     bool weld_seams = true;     // of patterns
     bool no_self_contact = false;
-    bool damps_patterns = false;  // a preset whose damping nothing else is said of
+    bool damps_patterns = false;  // a preset whose damping is not set otherwise
 
     std::span<const std::string> garments() const { return std::span(files).first(files.size() - 1); }
     const std::string& body() const { return files.back(); }
@@ -40,8 +40,8 @@ struct DrapeOptions {
 /// Throws SceneError for a value out of range, or outputs that do not go with the garments or cannot be written.
 void check_drape(const DrapeOptions& options);
 
-/// "mm", "cm" or "m": in which unit a mesh of that many units is 0.1 to some 10 m large, and beside a body of so many m (where
-/// it is above 0) of a garment's size. m where both may be.
+/// "mm", "cm" or "m": the unit in which a mesh of that extent is 0.1 to some 10 m large and, where `body` (m) is above 0, has the
+/// size of a garment for it; "m" where several units fit.
 std::string guessed_unit(double extent, double body = 0.0);
 
 /// Whether a body with this bounding box is much taller along z than along y.
@@ -58,11 +58,11 @@ struct DrapeScene {
 /// Meshes where they are, garments moved as asked, y up. Throws SceneError for options that do not go together.
 DrapeScene drape_scene(const DrapeOptions& options);
 
-/// s: until when garments are sewn, one after the other, and there is no weight.
+/// The time until which garments are sewn one after the other, without gravity, s.
 double sewing_end(const Scene& scene);
 
-/// s: sewing times to try, the first as the options say, each shorter than what leaves time to settle. Straps catch at the
-/// shoulder where they are sewn fast; panels cross far where they are sewn slowly, as they do not meet meanwhile.
+/// The sewing times to try, s. The first is that of the options, and each one leaves time to settle. Straps catch at the shoulder
+/// where they are sewn fast; panels cross far where they are sewn slowly, as they do not meet meanwhile.
 std::vector<double> sewing_times(const DrapeOptions& options);
 
 }  // namespace percale::scenes

@@ -50,7 +50,7 @@ std::string seam_text(const WidestGap& gap, const FrameCheck& check) {
 }
 
 /// Patterns are drawn where they are worn: one that hangs much lower at the end did not hold.
-void tell_of_sliding(const BuiltScene& built, const Drape& drape, DrapeVerdict& verdict) {
+void report_sliding_of(const BuiltScene& built, const Drape& drape, DrapeVerdict& verdict) {
     for (std::size_t k = 0; k < built.cloths.size(); ++k) {
         if (built.pattern_seams[k].empty()) continue;
         const double drop = drape.height[k] - mean_height(built.simulation, built.cloths[k]);
@@ -101,7 +101,7 @@ DrapeVerdict verdict_of(const BuiltScene& built, const DrapeOptions& options, co
     }
     const WidestGap gap = widest_gap(built);
     if (gap.stitches > 0) verdict.lines.push_back(seam_text(gap, check));
-    tell_of_sliding(built, drape, verdict);
+    report_sliding_of(built, drape, verdict);
     for (const std::string& text : tight_warnings(built))
         verdict.lines.push_back("warning: " + text + " (--scale makes it larger)");
     const std::string fault = fault_of(drape, check, gap, comes_apart);

@@ -7,7 +7,7 @@
 
 namespace percale::scenes {
 
-/// A run on its way, with all that is needed to go on with it.
+/// An unfinished run, with all that is needed to continue it.
 struct Checkpoint {
     std::string settings;  // settings_text of its scene
     bool certify_steps = false, replay_hash = false;
@@ -18,7 +18,7 @@ struct Checkpoint {
 /// Writes it as a whole file that survives a loss of power. Throws SceneError naming a file that cannot be written.
 void write_checkpoint(const std::string& file, const Checkpoint& checkpoint);
 
-/// What a run is asked for beside its scene.
+/// The options of a run besides its scene.
 struct RunMarks {
     bool certify_steps = false, replay_hash = false;
 };

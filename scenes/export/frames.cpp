@@ -66,7 +66,8 @@ FrameCast cast_of(const Scene& scene) {
     return cast;
 }
 
-/// Throws SceneError for a word that no format has. Exact formats come first, of these, with fields, what holds them.
+/// Throws SceneError for a word that no format has. Exact formats come first; where fields are written, formats that hold fields
+/// come first among the others and among the exact ones.
 std::vector<const FrameFormat*> formats_of(const OutputSpec& output, std::span<const FrameFormat> formats) {
     std::vector<const FrameFormat*> chosen;
     for (const std::string& word : output.frames) {

@@ -24,8 +24,8 @@ struct FrameRecord {
 };
 
 /// Writes the frames of a scene in the formats that it names (output.frames) into FOLDER/frames and FOLDER/obstacles, whole or
-/// not at all. Cloths and obstacles of a record are the files of the first exact format, with fields of one that holds them, or
-/// of the first if none is exact.
+/// not at all. Cloths and obstacles of a record are the files of the first exact format (where fields are written, of one that
+/// holds them), or of the first format if none is exact.
 class FrameWriter {
 public:
     /// Creates nothing yet. Throws SceneError for a name that cannot be part of a file name or that two cloths or two obstacles

@@ -29,7 +29,7 @@ namespace {
 
 std::string checksum_text(const std::string& file) { return hexadecimal(checksum(read_bytes(file))); }
 
-/// file_type::not_found where there is none.
+/// The kind of a file; file_type::not_found where there is none.
 fs::file_type kind_of(const std::string& path) {
     std::error_code error;
     const fs::file_type kind = fs::status(path, error).type();
@@ -43,7 +43,7 @@ std::size_t expected_count(const Scene& scene, const RunMarks& marks) {
     return marks.certify_steps ? with_every_step(scene.expectations).size() : scene.expectations.size();
 }
 
-/// Every number in all its digits, infinity too.
+/// The expectations, each number with all its digits, infinity included.
 ordered_json expectation_list(const Scene& scene) {
     ordered_json list = ordered_json::array();
     for (const Expectation& one : scene.expectations)
@@ -67,7 +67,7 @@ void add_files(const ObstacleSpec& obstacle, std::set<std::string>& names) {
     for (int frame = (*obstacle.frames)[0]; frame <= (*obstacle.frames)[1]; ++frame) names.insert(pattern.name_of(frame));
 }
 
-/// Names as the scene has them.
+/// The files that a scene names, as the scene writes them.
 std::set<std::string> named_files(const Scene& scene) {
     std::set<std::string> names;
     for (const ClothSpec& cloth : scene.cloths) {
@@ -83,7 +83,7 @@ std::set<std::string> named_files(const Scene& scene) {
     return names;
 }
 
-/// What is in an origin beside its settings, the first difference in words.
+/// The first difference between two origins besides their settings, in words.
 std::string changed_beside_settings(const ordered_json& now, const ordered_json& before) {
     if (now.at("program") != before.at("program")) return "it was made by another program";
     for (const char* option : {"--certify-steps", "--replay-hash"}) {
@@ -168,7 +168,7 @@ void KeptRun::look(const Scene& scene) {
     ended_ = ended_run(folder_);
     if (ended_ && ended_->expectations.size() != expected_count(scene, marks_)) {
         ended_.reset();
-        why_again_ = "report.json tells of other expectations";
+        why_again_ = "report.json has other expectations";
         return;
     }
     if (ended_ || !is_there(checkpoint)) return;
@@ -210,7 +210,7 @@ RunResult KeptRun::run(BuiltScene& built, const RunHooks& stops, std::span<const
     settings.from_file = from_ ? checkpoint : "";
     RunResult result = run_scene(built, hooks, settings);
     folder.finish(built, result, judge_run(expectations, result.measures, result.timed, built.scene));
-    // One that stays does no harm: what a report tells of is looked at first, and the next run into the folder takes it away.
+    // A checkpoint that stays does no harm: the report is looked at first, and the next run into the folder removes it.
     std::error_code error;
     if (result.status != RunStatus::stopped) fs::remove(checkpoint, error);
     return result;

@@ -26,13 +26,13 @@ struct EndedRun {
 /// Nothing where a run's folder holds no report, one that is not whole, or one of a run that was stopped.
 std::optional<EndedRun> ended_run(const std::string& folder);
 
-/// All that the result of a run follows from, as JSON: the program, options, settings, expectations, and a checksum of the scene
+/// All that determines the result of a run, as JSON: the program, options, settings, expectations, and a checksum of the scene
 /// file and of every file that it names. Files that those name in turn (a .gltf's buffers) are not looked at. Throws SceneError
 /// where a file that is there cannot be read.
 std::string run_origin(const Scene& scene, const RunMarks& marks, const std::string& program);
 
-/// What differs between two of them: "step.time_step is 0.01, was 0.02", "expectations have changed", "ball.obj has changed"; ""
-/// where nothing does.
+/// The difference between two origins: "step.time_step is 0.01, was 0.02", "expectations have changed", "ball.obj has changed";
+/// "" where nothing does.
 std::string changed_origin(const std::string& now, const std::string& before);
 
 /// The version of this program and a checksum of its file and the libraries of the project that it has loaded (own_files); other
@@ -49,9 +49,9 @@ public:
     KeptRun(std::string folder, const Scene& scene, const RunMarks& marks, const std::string& program);
 
     const std::optional<EndedRun>& ended() const { return ended_; }
-    /// Why what is there is not good: "ball.obj has changed"; "" where nothing is there, or it is good.
+    /// Why the kept result cannot be used: "ball.obj has changed"; "" where there is none, or it can be used.
     const std::string& why_again() const { return why_again_; }
-    /// Of the last state of a run that has ended, where its table has one: 16 hexadecimal digits.
+    /// The hash of the last state of a run that has ended, if its table has one, as 16 hexadecimal digits.
     std::string state_hash() const;
 
     /// Runs the scene, or goes on with it, and leaves its report. `stops`: stop_asked and cancel alone are looked at. Throws what

@@ -63,7 +63,7 @@ std::vector<std::string> update_references(const BuiltScene& built, const RunRes
             fail_at(expectation.place, "matches: " + reference.file + " is named twice, and --update cannot write both into it");
         files.push_back(std::move(reference));
     }
-    std::vector<std::string> told;
+    std::vector<std::string> reported;
     for (const ReferenceFile& reference : files) {
         const std::string before = text_now(reference.file);
         if (extension_of(reference.file) == ".ply")
@@ -71,10 +71,10 @@ std::vector<std::string> update_references(const BuiltScene& built, const RunRes
         else
             write_obj(reference.file, reference.mesh.vertices, reference.mesh.triangles);
         const bool same = before == text_now(reference.file);
-        told.push_back("matches " + reference.expectation->file + when_text(*reference.expectation) + ": " +
-                       (same ? "unchanged" : "written, " + std::to_string(reference.mesh.vertices.size()) + " vertices"));
+        reported.push_back("matches " + reference.expectation->file + when_text(*reference.expectation) + ": " +
+                           (same ? "unchanged" : "written, " + std::to_string(reference.mesh.vertices.size()) + " vertices"));
     }
-    return told;
+    return reported;
 }
 
 }  // namespace percale::scenes

@@ -19,13 +19,13 @@ void remove_file(const fs::path& path) {
     if (error) throw SceneError(path.string() + ": cannot be replaced: " + error.message());
 }
 
-/// Puts the new one in the place of the old at once, so that a kill leaves no run without its own; "": none.
+/// Replaces the file of the origin at once, so that a kill leaves no run without its own; an empty origin removes the file.
 void set_origin(const std::string& folder, const std::string& origin) {
     if (origin.empty()) return remove_file(fs::path(folder) / origin_name);
     write_whole_file(folder + "/" + origin_name, origin);
 }
 
-/// The page of an earlier run, which would tell of frames that are gone; not what somebody else put there under its name.
+/// Removes the page of an earlier run, which would show frames that are gone, but no other file of that name.
 void remove_page(const std::string& folder) {
     std::string start(page_mark.size(), ' ');
     std::ifstream in(page_in(folder), std::ios::binary);
@@ -67,7 +67,7 @@ void remove_leftover(const std::string& folder, const char* name) {
     if (is_leftover(file)) remove_file(file);
 }
 
-/// Steps and frames of a run that was killed: its table never got its name. What a checkpoint needed, too.
+/// Removes steps and frames of a run that was killed, whose table never got its name, and what a checkpoint needed.
 void remove_killed_run(const std::string& folder, const FrameWriter& writer) {
     const bool killed = is_leftover(fs::path(folder) / (std::string("steps.csv") + part_suffix));
     if (killed || is_leftover(fs::path(folder) / checkpoint_name)) writer.remove_from(0);

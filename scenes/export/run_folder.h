@@ -24,10 +24,10 @@ struct FolderState {
 /// The name of the checkpoint in a run's folder.
 constexpr const char* checkpoint_name = "checkpoint.percale";
 
-/// What a run that is kept (kept_run.h) follows from; every other run into the folder, one that goes on there too, takes it away.
+/// The file with the origin of a run that is kept (kept_run.h); every other run into the folder, a resumed one too, removes it.
 constexpr const char* origin_name = "origin.json";
 
-/// The page of a run where nothing else is asked for, and what pages begin with.
+/// The path of a run's page if no other is given, and the text that pages begin with.
 std::string page_in(const std::string& folder);
 constexpr std::string_view page_mark = "<!DOCTYPE html><!-- the page of a run, by percale -->";
 
@@ -43,16 +43,16 @@ public:
     RunFolder(const RunFolder&) = delete;
     RunFolder& operator=(const RunFolder&) = delete;
 
-    /// Makes the folder, keeps it from other runs as long as this lives (FolderLock), and takes what an earlier run's report
-    /// lists out of it (report.json first: until `finish` there is none), and its page. `origin`: of a run that is kept
+    /// Makes the folder, keeps it from other runs as long as this lives (FolderLock), and removes from it what an earlier run's
+    /// report lists (report.json first: until `finish` there is none), and its page. `origin`: of a run that is kept
     /// (origin_name), else "". Throws SceneError if that is not possible.
     void begin(const std::string& origin = "");
-    /// Goes on where another run left its folder, which may be this one; frames and steps are copied from others. Throws
-    /// SceneError if what belongs to the state is not there.
+    /// Continues from the folder that another run left, which may be this one; frames and steps are copied from any other. Throws
+    /// SceneError if something that belongs to the state is missing.
     void begin_from(const FolderState& state, const std::string& other, const std::string& origin = "");
-    /// Brings all steps and frames to the disk.
+    /// Flushes all steps and frames to the disk.
     FolderState state();
-    /// A checkpoint holds what `state` told last.
+    /// Keeps the files for a checkpoint that holds the last value of `state`.
     void keep();
     void add(const Frame& frame);
     void add(const StepReport& report, const Simulation& simulation);

@@ -16,14 +16,14 @@ namespace percale::scenes {
 std::string run_report_text(const BuiltScene& built, const RunResult& result, std::span<const FrameRecord> frames,
                             std::span<const ExpectationResult> expectations);
 
-/// What did not go well in a run, beside pinches, and no expectation need say: torn cloth, crossings, steps that were not solved.
+/// What went wrong in a run besides pinches, whatever is expected: torn cloth, crossings, steps that were not solved.
 std::vector<std::string> end_warnings(const BuiltScene& built, const RunResult& result);
 
 /// The frames that FOLDER/report.json lists. Throws SceneError naming the file if it is missing or is no report.
 std::vector<FrameRecord> read_frame_records(const std::string& folder);
 /// The seams that it lists, likewise.
 std::vector<ClothStitches> read_seam_records(const std::string& folder);
-/// All of it, in a line. Throws likewise.
+/// The whole report, in one line. Throws likewise.
 std::string read_report_text(const std::string& folder);
 
 }  // namespace percale::scenes

@@ -20,12 +20,12 @@ std::string step_table_line(const StepReport& report, std::optional<std::uint64_
 class StepTable {
 public:
     explicit StepTable(const std::string& file);
-    /// Goes on after the first `bytes` of another table, or of this one where it was left.
+    /// Continues after the first `bytes` of another table, or of this one where it was left.
     StepTable(const std::string& file, const std::string& source, std::uint64_t bytes) : file_(file, source, bytes) {}
-    /// Throws SceneError if what was written until now could not be.
+    /// Throws SceneError if a line so far could not be written.
     void add(const StepReport& report, std::optional<std::uint64_t> state_hash);
     void finish() { file_.commit(); }
-    /// Brings all lines to the disk; returns how many bytes they are.
+    /// Flushes all lines to the disk; returns their length in bytes.
     std::uint64_t sync() { return file_.sync(); }
     /// Lets the unfinished table stay under its temporary name.
     void leave() { file_.leave(); }

@@ -15,7 +15,7 @@
 #include "fields/toml_values.h"
 
 // The fields of a spec of a scene file, a row each. From the rows come its keys (checks, `percale explain`, README), its reading
-// and its writing (settings in report.json, identity of a checkpoint). The tables are in tables/.
+// and its writing (settings in report.json, identity of a checkpoint). The tables are in format/.
 namespace percale::scenes {
 
 /// One field: what its key is, and how the key's value gets into a spec and out again.
@@ -83,7 +83,7 @@ void read_fields(const TomlNode& node, const FieldTable<Spec>& table, Spec& spec
     if (table.finish != nullptr) table.finish(node, spec);
 }
 
-/// A spec of its own. Throws SceneFileError for the first fault.
+/// Reads a table into a new spec. Throws SceneFileError for the first fault.
 template <class Spec>
 Spec read_spec(const TomlNode& node, const FieldTable<Spec>& table) {
     Spec spec;
@@ -111,7 +111,7 @@ inline constexpr auto itself = [](auto& spec) -> auto& { return spec; };
 
 // Rows. `access` is a pointer to a member, or a function from a spec to a reference to the field.
 
-/// With the default of its key: what a spec just made has.
+/// The row with the default of its key, which is the value of a default-constructed spec.
 template <class Spec>
 Field<Spec> with_default(Field<Spec> row) {
     if (row.key.required || row.key.alternative) return row;
@@ -189,7 +189,7 @@ Field<Spec> table_field(SceneKey key, Access access, const FieldTable<Inner>& in
             }};
 }
 
-/// A list of tables, an item of a std::vector each.
+/// A list of tables, one for each item of a std::vector.
 template <class Spec, class Item>
 Field<Spec> list_field(SceneKey key, std::vector<Item> Spec::*list, const FieldTable<Item>& inner) {
     key.kind = KeyKind::table_list;

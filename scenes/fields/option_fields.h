@@ -67,6 +67,7 @@ Field<Spec> option_field(const Option<Owner>& option, Access access) {
                  .count = option.optional_pair ? 2 : 0,
                  .choices = {option.choices.begin(), option.choices.end()}};
     key.required = option.required;
+    key.former = std::string(option.former);
     return with_default<Spec>(
         {.key = std::move(key),
          .read = [=](const TomlNode& node, Spec& spec, FaultList&) { read_option(node, option, std::invoke(access, spec)); },

@@ -33,7 +33,7 @@ enum class KeyKind {
 };
 
 /// One key of a scene file. Rows of field tables hold it (field_table.h); the list of all keys, made of these, is in
-/// tables/scene_table.h.
+/// format/scene_table.h.
 struct SceneKey {
     std::string path;  // in a row the key; in the list dotted from the top, names of fabrics left out: "fabric.springs.bend"
     KeyKind kind = KeyKind::text;
@@ -48,6 +48,7 @@ struct SceneKey {
     bool alternative = false;           // exactly one of these in its table
     std::string needs = {};             // means nothing without that other key
     std::string needs_why = {};         // "unit is that of a mesh file"
+    std::string former = {};            // its name in the release before, which still works
     bool setting = true;                // what a run does depends on it; false: it names or judges the run
     std::vector<SceneKey> inside = {};  // of a table, in a row; empty in the list
 };

@@ -94,7 +94,7 @@ void check_depth(const std::string& text, const std::string& name) {
 // A value that begins like this was meant as TOML; anything else that is not TOML is a bare word.
 bool begins_like_toml(char first) { return first == '[' || first == '{' || first == '"' || first == '\''; }
 
-/// Of the number that a line's last key has for a value, if that is why the line is not TOML.
+/// Advice on the number that is the value of a line's last key, if that is why the line is not TOML.
 std::string advice_on_line(const std::string& text, int line) {
     std::istringstream lines(text);
     std::string words;

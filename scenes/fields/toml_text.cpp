@@ -27,7 +27,7 @@ std::string quoted(const std::string& text) {
     return out + "\"";
 }
 
-/// TOML tells a number from an integer by a point or an exponent.
+/// TOML distinguishes a number from an integer by a point or an exponent.
 std::string toml_number(double value) {
     const std::string text = number_text(value);
     const bool whole = std::isfinite(value) && text.find_first_of(".e") == std::string::npos;

@@ -33,7 +33,7 @@ void read_value(const TomlNode& node, std::optional<Value>& value) {
     read_value(node, value.emplace());
 }
 
-/// Normalised. Throws SceneFileError naming the key as `shown` if the length is not 1 to within 0.001.
+/// The rotation, normalised. Throws SceneFileError naming the key as `shown` if the length is not 1 to within 0.001.
 Rotation read_rotation(const TomlNode& node, const std::string& shown);
 
 /// What read_value() reads back as the same value; an empty optional is nothing.
@@ -86,7 +86,7 @@ inline constexpr ValueKind value_kind<std::vector<Stitch>> = {KeyKind::stitches}
 template <class Value>
 inline constexpr ValueKind value_kind<std::optional<Value>> = value_kind<Value>;
 
-/// As messages and tables show the default of a key: texts in quotes, words bare.
+/// The default of a key, as messages and tables show it: texts in quotes, words bare.
 std::string value_text(KeyKind kind, const TomlNode& node);
 
 /// The one key of `keys` that the table holds. Throws SceneFileError at the table if it holds none of them or several.

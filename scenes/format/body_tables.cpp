@@ -7,7 +7,7 @@
 #include "common/scene_file_error.h"
 #include "common/text.h"
 #include "format/motion_keys.h"
-#include "format/ranges.h"
+#include "format/scene.h"
 #include "tolerances.h"
 
 namespace percale::scenes {
@@ -97,7 +97,7 @@ Field<Spec> weld_field() {
                                           "counted after it. Not with rest, stitches of the file, or bodies that bend.",
                               .unit = "m",
                               .lowest = 0.0,
-                              .highest = most_weld,
+                              .highest = max_weld,
                               .needs = "mesh",
                               .needs_why = "weld joins vertices of a mesh file"},
                              &Spec::weld);
@@ -183,8 +183,8 @@ const FieldTable<Pose>& pose_table() {
             value_field<Pose>({.path = "translation",
                                .sentence = "Where the mesh's origin comes to lie.",
                                .unit = "m",
-                               .lowest = -farthest,
-                               .highest = farthest},
+                               .lowest = -max_coordinate,
+                               .highest = max_coordinate},
                               &Pose::translation),
             rotation_field<Pose>({.path = "rotation",
                                   .sentence = "Unit quaternion w, x, y, z (length 1 to within 0.001).",
@@ -345,8 +345,8 @@ const FieldTable<ClothSpec>& cloth_table() {
                    value_field<ClothSpec>({.path = "warp",
                                            .sentence = "Where warp runs, of any length: in uv, then v if not said, or in the "
                                                        "axes of the mesh without strain; weft is across.",
-                                           .lowest = -farthest,
-                                           .highest = farthest,
+                                           .lowest = -max_coordinate,
+                                           .highest = max_coordinate,
                                            .needs = "mesh",
                                            .needs_why = "warp of a grid runs along x, of a pattern as its panels say"},
                                           &ClothSpec::warp),

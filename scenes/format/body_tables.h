@@ -9,7 +9,7 @@ namespace percale::scenes {
 const FieldTable<ClothSpec>& cloth_table();
 const FieldTable<ObstacleSpec>& obstacle_table();
 
-/// As toml_values.h has it for values of other types.
+/// The same as in toml_values.h for values of other types.
 void read_value(const TomlNode& node, VertexSelection& value);
 TomlNode value_node(const VertexSelection& value);
 void read_value(const TomlNode& node, Warp& value);

@@ -44,8 +44,8 @@ bool read_step_measures(std::span<const Expectation> expectations);
 /// " at 1.5 s", " during 1 ... 2 s", "" for the whole run.
 std::string when_text(const Expectation& expectation);
 
-/// Judges every expectation by what `timed` has of it, in the expectations' order, NaN and what is not there: nothing; else,
-/// without a time of its own, by the measures of a run, by name.
+/// Judges every expectation by its value in `timed`, which has the order of the expectations; NaN or a missing entry is no value.
+/// Without one, an expectation that has no time of its own is judged by the run's measure of its name.
 std::vector<ExpectationResult> judge(std::span<const Expectation> expectations, const std::map<std::string, double>& measures,
                                      std::span<const double> timed = {});
 

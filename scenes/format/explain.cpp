@@ -5,6 +5,7 @@
 
 #include "common/nearest_name.h"
 #include "common/text.h"
+#include "format/former_keys.h"
 #include "format/scene_table.h"
 #include "percale/error.h"
 #include "percale/fabric_presets.h"
@@ -20,7 +21,7 @@ bool is_table(const SceneKey& key) {
 
 bool at_top(const std::string& path) { return path.find('.') == std::string::npos; }
 
-// As a scene file writes the heading of the table that holds a key: [step], [fabric.NAME], [[cloth]]; "" at the top.
+// The heading of the table that holds a key, as a scene file writes it: [step], [fabric.NAME], [[cloth]]; "" at the top.
 std::string heading(const std::string& path) {
     const SceneKey& top = *find_scene_key(path.substr(0, path.find('.')));
     if (top.kind == KeyKind::table) return "[" + top.path + "]";
@@ -65,6 +66,7 @@ bool belongs(const std::string& path, const std::string& topic) {
 // The topic as a path: itself, or every path whose last part it is.
 std::vector<std::string> topic_paths(const std::string& topic) {
     if (topic.empty() || find_scene_key(topic) != nullptr) return {topic};
+    if (const std::string present = present_path(topic); !present.empty()) return {present};
     std::vector<std::string> paths;
     for (const SceneKey& key : scene_keys())
         if (key.path.ends_with("." + topic)) paths.push_back(key.path);

@@ -2,7 +2,7 @@
 
 #include "common/scene_file_error.h"
 #include "common/text.h"
-#include "format/ranges.h"
+#include "format/scene.h"
 
 namespace percale::scenes {
 namespace {
@@ -50,13 +50,13 @@ const FieldTable<Keyframe>& keyframe_table() {
     static const FieldTable<Keyframe> table = {
         .fields = {
             value_field<Keyframe>(
-                {.path = "time", .sentence = "When.", .unit = "s", .lowest = 0.0, .highest = longest, .required = true},
+                {.path = "time", .sentence = "When.", .unit = "s", .lowest = 0.0, .highest = max_time, .required = true},
                 &Keyframe::time),
             value_field<Keyframe>({.path = "translation",
                                    .sentence = "Where; without it as in the keyframe before.",
                                    .unit = "m",
-                                   .lowest = -farthest,
-                                   .highest = farthest},
+                                   .lowest = -max_coordinate,
+                                   .highest = max_coordinate},
                                   &Keyframe::translation),
             rotation_field<Keyframe>({.path = "rotation",
                                       .sentence = "Unit quaternion w, x, y, z; without it as in the keyframe before.",
@@ -88,8 +88,8 @@ const FieldTable<Spin>& spin_table() {
     static const FieldTable<Spin> table = {
         .fields = {value_field<Spin>({.path = "axis",
                                       .sentence = "Direction of the axis in the world, of any length.",
-                                      .lowest = -farthest,
-                                      .highest = farthest},
+                                      .lowest = -max_coordinate,
+                                      .highest = max_coordinate},
                                      &Spin::axis),
                    value_field<Spin>({.path = "turns_per_s",
                                       .sentence = "Counter-clockwise seen against the axis.",
@@ -99,7 +99,7 @@ const FieldTable<Spin>& spin_table() {
                                       .required = true},
                                      &Spin::turns_per_s),
                    value_field<Spin>(
-                       {.path = "from", .sentence = "When it begins.", .unit = "s", .lowest = 0.0, .highest = longest},
+                       {.path = "from", .sentence = "When it begins.", .unit = "s", .lowest = 0.0, .highest = max_time},
                        &Spin::from)},
         .finish = finish_spin};
     return table;
@@ -130,7 +130,7 @@ Field<ObstacleSpec> pinch_field() {
                                                  "stop: the run ends, and names the obstacles, "
                                                  "when cloth can no longer be kept from crossing. yield: from 1.2 thicknesses of "
                                                  "room on its surface gives way there, and "
-                                                 "goes back when there is room; report.json tells when and how far. Edges should "
+                                                 "goes back when there is room; report.json says when and how far. Edges should "
                                                  "be no longer than a few thicknesses."},
                                     &ObstacleSpec::yields, words, std::vector{false, true});
 }

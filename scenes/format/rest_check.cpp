@@ -16,14 +16,15 @@ double event_end(const EventSpec& event) {
 }
 
 void check_ends(const Scene& scene, double end, const SourcePlace& place, const std::string& what) {
-    if (end < scene.longest) return;
+    if (end < scene.max_duration) return;
     fail_at(place, what + " goes on until " + number_text(end) +
-                       " s; with duration = \"rest\" all must be over before longest = " + number_text(scene.longest) + " s");
+                       " s; with duration = \"rest\" all must be over before max_duration = " + number_text(scene.max_duration) +
+                       " s");
 }
 
 void check_script_ends(const Scene& scene) {
     for (const EventSpec& event : scene.events) check_ends(scene, event_end(event), event.place, "event");
-    for (const SeamSpec& seam : scene.seams) check_ends(scene, seam.from + seam.over, seam.place, "seam: closing");
+    for (const SeamSpec& seam : scene.seams) check_ends(scene, seam.start_time + seam.duration, seam.place, "seam: closing");
     for (const ObstacleSpec& obstacle : scene.obstacles) {
         const std::string name = "obstacle '" + obstacle.name + "': ";
         if (obstacle.spin && obstacle.spin->turns_per_s != 0.0)

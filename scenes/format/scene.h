@@ -20,6 +20,10 @@
 // What a scene file says, as plain data: nothing is read from disk or checked against meshes here.
 namespace percale::scenes {
 
+/// Largest coordinates and times of a scene.
+inline constexpr double max_coordinate = 1e6;  // m
+inline constexpr double max_time = 1e6;        // s
+
 struct GridSpec {
     std::array<double, 2> size = {1.0, 1.0};  // m
     std::array<int, 2> vertices = {2, 2};     // columns, rows
@@ -122,8 +126,8 @@ struct SeamSpec {
     std::optional<std::vector<std::array<int, 2>>> vertices;  // of the first and of the second cloth
     std::optional<std::vector<Stitch>> points;                // likewise
     std::string file;                                         // of more, relative to the scene file; "mesh": that of the cloth
-    double from = 0.0;                                        // s, when closing begins
-    double over = 1.0;                                        // s
+    double start_time = 0.0;                                  // s, when closing begins
+    double duration = 1.0;                                    // s, of closing
     double stiffness = 1000.0;                                // N/m
     bool contact_while_closing = true;
     bool weld = false;
@@ -178,7 +182,7 @@ struct Expectation {
 struct OutputSpec {
     std::vector<std::string> frames = {"obj"};  // words of frame_words(); no_frames alone
     double fps = 30.0;
-    std::vector<std::string> fields = {};  // some of fit_words: what frames tell of cloth besides its shape
+    std::vector<std::string> fields = {};  // some of fit_words: what frames hold of cloth besides its shape
 
     bool writes_frames() const { return frames != std::vector<std::string>{no_frames}; }
 };
@@ -193,7 +197,7 @@ struct Scene {
     std::string title;
     double duration = 1.0;            // s; idle if it ends at rest
     bool until_rest = false;          // ends when all cloth is proven at rest
-    double longest = 20.0;            // s, if it ends at rest: by then, or it has failed
+    double max_duration = 20.0;       // s, if it ends at rest: by then, or it has failed
     SourcePlace duration_place;       // of `duration`; of the whole file where that is not said
     StepSettings step{.threads = 0};  // gravity included; as many threads as pay
     SourcePlace scheme_place;         // of step.scheme; of the whole file where that is not said
@@ -207,9 +211,10 @@ struct Scene {
     std::vector<EventSpec> events;  // ascending times
     std::vector<Expectation> expectations;
     OutputSpec output;
+    std::vector<std::string> warnings;  // what has to be changed in its file
 
-    /// s, when it ends at the latest.
-    double latest_end() const { return until_rest ? longest : duration; }
+    /// The latest time at which it ends, s.
+    double latest_end() const { return until_rest ? max_duration : duration; }
     /// Whether this cloth meets itself and other such cloth.
     bool meets_cloth(const ClothSpec& cloth) const {
         const auto found = fabrics.find(cloth.fabric);
@@ -223,7 +228,7 @@ struct Scene {
         };
         return std::ranges::any_of(events, [&](const EventSpec& event) { return std::visit(names, event.what); });
     }
-    /// Whether it holds air.
+    /// Whether the cloth has a pressure or holds gas.
     bool is_filled(const ClothSpec& cloth) const {
         const auto found = fabrics.find(cloth.fabric);
         return found != fabrics.end() && (found->second.pressure || found->second.gas_volume);

@@ -200,10 +200,10 @@ bool is_meant_for_nameless(const TomlNode& node, const std::string& path) {
 
 void check_named_tables(const TomlNode& node, const SceneKey& key, const Spot& spot, FaultList& faults) {
     if (node.kind != TomlKind::table) fail_kind(node, key, spot.shown);
-    bool told = false;  // of all keys once
+    bool reported = false;  // reported once for all keys
     for (const TomlNode& table : node.entries) {
         const bool nameless = is_meant_for_nameless(table, spot.path);
-        if (nameless && std::exchange(told, true)) continue;
+        if (nameless && std::exchange(reported, true)) continue;
         faults.attempt([&] {
             const std::string& name = table.key;
             if (nameless)

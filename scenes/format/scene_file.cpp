@@ -6,6 +6,7 @@
 #include "common/input_file.h"
 #include "common/nearest_name.h"
 #include "common/scene_file_error.h"
+#include "format/former_keys.h"
 #include "format/overrides.h"
 #include "format/scene_check.h"
 #include "format/scene_table.h"
@@ -103,10 +104,13 @@ Scene scene_with(TomlNode document, const std::string& name, std::span<const Ove
     document.place = {.file = name};
     if (document.entries.empty()) fail_at(document.place, "is empty; a scene needs at least one [fabric.NAME] and one [[cloth]]");
     if (document.find("panel") != nullptr && document.find("cloth") == nullptr) throw SceneError(name + not_a_scene);
-    for (const Override& override : overrides) apply_override(document, override);
+    std::vector<std::string> notes;
+    rename_former_keys(document, "", notes, faults);
+    for (const Override& override : overrides) apply_override(document, with_present_key(override, notes));
     check_document(document, faults);
     if (!faults.found.empty()) return {};
     Scene scene = scene_of(document, name, faults);
+    scene.warnings = std::move(notes);
     if (!faults.found.empty()) return scene;
     if (scene.cloths.empty()) fail_at(document.place, "has no cloth; a scene needs at least one [[cloth]]");
     check_references(scene, faults);

@@ -12,8 +12,8 @@
 
 namespace percale::scenes {
 
-/// Reads a TOML scene file, overrides applied before anything is checked. Throws SceneError with "file:line:column: what",
-/// the allowed range or the nearest valid key. Keys and ranges: tables/.
+/// Reads a TOML scene file, overrides applied before anything is checked. Throws SceneError with "file:line:column: what", the
+/// allowed range or the nearest valid key. Keys and ranges: scene_table.h.
 Scene load_scene(const std::string& file, std::span<const Override> overrides = {});
 
 /// The same from text; `name` stands for the file in messages and relative paths are relative to its folder.
@@ -26,7 +26,7 @@ Scene scene_of_document(const TomlNode& document, const std::string& name, std::
 using SceneSource = std::function<Scene(std::span<const Override>)>;
 
 /// What load_scene has against a file, one kind at a time: all faults of keys and values; where there are none, those of whole
-/// tables; where there are none, those of names by which tables call each other.
+/// tables; where there are none, those of names by which tables refer to each other.
 std::vector<SceneFileError> scene_faults(const std::string& file, std::span<const Override> overrides = {});
 
 }  // namespace percale::scenes

@@ -4,7 +4,7 @@
 #include "common/text.h"
 #include "fields/option_fields.h"
 #include "format/body_tables.h"
-#include "format/ranges.h"
+#include "format/scene.h"
 #include "format/script_tables.h"
 #include "frames/cloth_fit.h"
 #include "frames/frame_formats.h"
@@ -102,7 +102,7 @@ Field<Scene> duration_field() {
                              "second and nothing more is to happen.",
                  .unit = "s",
                  .lowest = 1e-6,
-                 .highest = scenes::longest},
+                 .highest = scenes::max_time},
          .read =
              [](const TomlNode& node, Scene& scene, FaultList&) {
                  scene.until_rest = !node.is_number();
@@ -115,22 +115,24 @@ Field<Scene> duration_field() {
 }
 
 /// Only scenes that end at rest have it.
-Field<Scene> longest_field() {
-    return {.key = {.path = "longest",
+Field<Scene> max_duration_field() {
+    return {.key = {.path = "max_duration",
                     .kind = KeyKind::number,
                     .sentence = "With duration = \"rest\": the run fails if it is not at rest by then.",
                     .unit = "s",
                     .lowest = 1e-6,
-                    .highest = scenes::longest,
-                    .default_text = number_text(Scene().longest)},
+                    .highest = scenes::max_time,
+                    .default_text = number_text(Scene().max_duration),
+                    .former = "longest"},
             .read =
                 [](const TomlNode& node, Scene& scene, FaultList&) {
                     if (!scene.until_rest)
-                        fail_at(node.key_place, "longest is that of a scene with duration = \"rest\"; without, it means nothing");
-                    read_value(node, scene.longest);
+                        fail_at(node.key_place,
+                                "max_duration is that of a scene with duration = \"rest\"; without, it means nothing");
+                    read_value(node, scene.max_duration);
                 },
             .write = [](const Scene& scene) -> std::optional<TomlNode> {
-                return scene.until_rest ? std::optional(value_node(scene.longest)) : std::nullopt;
+                return scene.until_rest ? std::optional(value_node(scene.max_duration)) : std::nullopt;
             }};
 }
 
@@ -164,7 +166,7 @@ const FieldTable<OutputSpec>& output_table() {
                                      .highest = 1e5},
                                     &OutputSpec::fps),
             value_field<OutputSpec>({.path = "fields",
-                                     .sentence = "What frames tell of how cloth sits, and report.json sums up as it is at the "
+                                     .sentence = "What frames say of how cloth sits, and report.json sums up as it is at the "
                                                  "end. " +
                                                  fit_words_meaning() + ".",
                                      .choices = {std::begin(fit_words), std::end(fit_words)}},
@@ -208,7 +210,7 @@ const FieldTable<Scene>& scene_table() {
         .fields = {
             value_field<Scene>({.path = "title", .sentence = "What the scene shows.", .setting = false}, &Scene::title),
             duration_field(),
-            longest_field(),
+            max_duration_field(),
             value_field<Scene>(
                 {.path = "gravity",
                  .sentence = "Acceleration of free fall; y is up.",

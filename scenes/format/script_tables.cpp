@@ -4,7 +4,7 @@
 
 #include "format/body_tables.h"
 #include "format/expectations.h"
-#include "format/ranges.h"
+#include "format/scene.h"
 
 namespace percale::scenes {
 namespace {
@@ -21,12 +21,12 @@ FieldTable<MoveEvent> move_table() {
     table.fields.push_back(value_field<MoveEvent>({.path = "to",
                                                    .sentence = "How far from where they are then.",
                                                    .unit = "m",
-                                                   .lowest = -farthest,
-                                                   .highest = farthest,
+                                                   .lowest = -max_coordinate,
+                                                   .highest = max_coordinate,
                                                    .required = true},
                                                   &MoveEvent::to));
     table.fields.push_back(value_field<MoveEvent>(
-        {.path = "over", .sentence = "How long it takes.", .unit = "s", .lowest = 1e-6, .highest = longest, .required = true},
+        {.path = "over", .sentence = "How long it takes.", .unit = "s", .lowest = 1e-6, .highest = max_time, .required = true},
         &MoveEvent::over));
     return table;
 }
@@ -47,7 +47,7 @@ const FieldTable<Expectation>& matches_table() {
                                       .sentence = "Largest distance of a vertex allowed.",
                                       .unit = "m",
                                       .lowest = 0.0,
-                                      .highest = farthest,
+                                      .highest = max_coordinate,
                                       .required = true},
                                      &Expectation::highest),
         }};
@@ -82,7 +82,7 @@ TomlNode limit_node(const Expectation& limit) {
     return table;
 }
 
-/// When all of a table of expectations is looked at.
+/// The time at which all expectations of a table are judged.
 const FieldTable<Expectation>& when_table() {
     static const FieldTable<Expectation> table = {
         .fields =
@@ -93,7 +93,7 @@ const FieldTable<Expectation>& when_table() {
                                  "that alone; in [[expect]], of which there may be several.",
                      .unit = "s",
                      .lowest = 0.0,
-                     .highest = longest},
+                     .highest = max_time},
                     &Expectation::at),
                 value_field<Expectation>(
                     {.path = "during",
@@ -102,7 +102,7 @@ const FieldTable<Expectation>& when_table() {
                          "what a run has at its end (speeds, heights, gaps of seams, `matches`) must hold in each of them.",
                      .unit = "s",
                      .lowest = 0.0,
-                     .highest = longest},
+                     .highest = max_time},
                     &Expectation::during),
             },
         .rules = {.shown = [](const TomlNode&) -> std::string { return "expect"; }, .exclude = {{"at", "during"}}}};
@@ -181,6 +181,12 @@ Field<SeamSpec> weld_field() {
         &SeamSpec::weld);
 }
 
+Field<SeamSpec> closing_time(const std::string& key, const std::string& former, const std::string& sentence,
+                             double SeamSpec::*time) {
+    return value_field<SeamSpec>(
+        {.path = key, .sentence = sentence, .unit = "s", .lowest = 0.0, .highest = max_time, .former = former}, time);
+}
+
 }  // namespace
 
 const FieldTable<SeamSpec>& seam_table() {
@@ -211,16 +217,10 @@ const FieldTable<SeamSpec>& seam_table() {
                      .sentence = "A text file of stitches, a line \"i j\" or \"i j k t\" each, relative to the scene "
                                  "file; \"mesh\": the lines \"stitch i j k t\" of the cloth's OBJ file."},
                     &SeamSpec::file),
-                value_field<SeamSpec>(
-                    {.path = "from",
-                     .sentence = "When closing begins; before, each stitch keeps the length that it starts with.",
-                     .unit = "s",
-                     .lowest = 0.0,
-                     .highest = longest},
-                    &SeamSpec::from),
-                value_field<SeamSpec>(
-                    {.path = "over", .sentence = "How long closing takes.", .unit = "s", .lowest = 0.0, .highest = longest},
-                    &SeamSpec::over),
+                closing_time("start_time", "from",
+                             "When closing begins; before, each stitch keeps the length that it starts with.",
+                             &SeamSpec::start_time),
+                closing_time("duration", "over", "How long closing takes.", &SeamSpec::duration),
                 value_field<SeamSpec>({.path = "stiffness",
                                        .sentence = "Constant of the spring that draws a stitch together and then holds it.",
                                        .unit = "N/m",
@@ -269,7 +269,7 @@ const FieldTable<EventSpec>& event_table() {
                                            .sentence = "When; after the end of the scene it does not happen.",
                                            .unit = "s",
                                            .lowest = 0.0,
-                                           .highest = longest,
+                                           .highest = max_time,
                                            .required = true},
                                           &EventSpec::time),
                    vertex_event("pin", "Holds vertices where they are then.", vertex_event_table<PinEvent>()),

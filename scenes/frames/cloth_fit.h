@@ -29,11 +29,11 @@ struct DressedCloth {
     const std::atomic<bool>* cancel = nullptr;  // as of certify
 };
 
-/// Pa, of each vertex: the sum of what obstacles push it off with, |normal|, over its area as it is now
-/// (vertex_areas).
+/// The contact pressure on each vertex, Pa: the sum of |normal| over all obstacles, divided by its present area (vertex_areas).
 std::vector<double> contact_pressure(const TriangleMesh& now, std::span<const ContactLoad> loads);
 
-/// m, of each point, to the nearest obstacle, with a minus inside a closed one; infinity without obstacles. World coordinates.
+/// The distance of each point from the nearest obstacle, m, negative inside a closed one; infinity without obstacles. World
+/// coordinates.
 std::vector<double> obstacle_distances(std::span<const Vec3> points, std::span<const TriangleMesh> obstacles,
                                        const std::atomic<bool>* cancel = nullptr);
 
@@ -41,12 +41,12 @@ std::vector<double> obstacle_distances(std::span<const Vec3> points, std::span<c
 /// their mean by rest area; pressure: Pa, of vertices; distance: of vertices, obstacle_distances.
 MeshFields fit_fields(const DressedCloth& cloth, std::span<const std::string> words);
 
-/// Where the values of a field lie, sorted.
+/// The spread of the values of a field.
 struct Spread {
     double smallest = 0.0, median = 0.0, of_95_percent = 0.0, largest = 0.0;
 };
 
-/// Of at least one value.
+/// `values`: at least one.
 Spread spread_of(std::vector<double> values);
 
 }  // namespace percale::scenes

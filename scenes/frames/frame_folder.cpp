@@ -25,7 +25,7 @@ void FrameFolder::write(const std::string& name, const std::function<void(const 
 std::ostream& FrameFolder::grown(const std::string& name) {
     need_folder_of(name);
     Growing& growing = growing_.try_emplace(name, path(name)).first->second;
-    errno = 0;  // a failure of this file is told by what comes now
+    errno = 0;  // so that it says why writing this file fails
     return growing.file.out();
 }
 

@@ -27,27 +27,27 @@ public:
 
     /// A file that is written at once by `write_to`, which gets its path.
     void write(const std::string& name, const std::function<void(const std::string&)>& write_to);
-    /// What is behind the last byte of a file that grows; before its first use the file is empty.
+    /// The stream that appends to a file that grows; before its first use the file is empty.
     std::ostream& grown(const std::string& name);
     /// Throws if something that was put into grown files could not be written.
     void check();
-    /// The path of all that was put into a grown file. It never becomes whole: others are made from it at the end of the run,
-    /// then it goes, or stays under its temporary name where a checkpoint needs it.
+    /// The path of a grown file with all that was put into it. It never becomes whole: other files are made from it at the end of
+    /// the run, then it is removed, or stays under its temporary name where a checkpoint needs it.
     std::string scratch(const std::string& name);
 
     /// Copies a file from another run's folder.
     void copy(const std::string& other, const std::string& name);
-    /// Takes a grown file from another run's folder, which may be this one, as long as it was then; with `keep` that much of it
-    /// is left where this run fails.
+    /// Takes over a grown file from another run's folder, which may be this one, with its length of that time; with `keep` that
+    /// much of it is left if this run fails.
     void go_on(const std::string& other, const GrownFile& file, bool keep);
 
-    /// Brings all grown files to the disk and tells how long they are.
+    /// Flushes all grown files to the disk and returns their lengths.
     std::vector<GrownFile> sync();
-    /// A checkpoint needs what is there: `discard` leaves it, of grown files under the temporary name.
+    /// Keeps what is there for a checkpoint: `discard` leaves it, grown files under their temporary names.
     void keep();
     /// Removes every file written since the construction or the last call of `keep`.
     void discard();
-    /// The grown files are whole.
+    /// Makes the grown files whole.
     void finish();
 
 private:

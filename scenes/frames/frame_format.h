@@ -25,7 +25,7 @@ struct FrameCast {
 
 /// One frame in world coordinates, m, in the order of the cast.
 struct FrameShapes {
-    int index = 0;      // frames come one after the other, from 0 or from where a run is gone on with
+    int index = 0;      // frames come one after the other, from 0 or from where a run is resumed
     double time = 0.0;  // s
     std::span<const TriangleMesh> cloths, obstacles;
     std::span<const MeshFields> cloth_fields = {};  // empty: no cloth has any
@@ -47,14 +47,14 @@ struct FrameBytes {
     double once = 0.0, each_frame = 0.0;
 };
 
-/// Writes the frames of one run. It keeps nothing of a frame, so that a run can be gone on with by a new one.
+/// Writes the frames of one run. It keeps nothing of a frame, so that a new encoder can continue a run.
 class FrameEncoder {
 public:
     virtual ~FrameEncoder() = default;
     /// Writes one frame into frames/ and obstacles/ of the folder, as files of its own (FrameFolder::write) or behind what is in
     /// files that grow over the run (FrameFolder::grown).
     virtual FrameFiles write(const FrameShapes& frame, FrameFolder& folder) = 0;
-    /// After the last frame of a run: completes files that grow. `times`: of all frames, s.
+    /// To be called after the last frame of a run: completes files that grow. `times`: of all frames, s.
     virtual void finish(std::span<const double> times, FrameFolder& folder) = 0;
     /// The first frame of this cast that a file of this name, relative to the run's folder, would show; -1: it is none of them.
     virtual int first_frame_of(const std::string& name) const = 0;
@@ -68,7 +68,7 @@ struct FrameFormat {
     std::vector<std::string> endings;                    // of all its files, with the point; no other format has them
     bool holds_fields = false;                           // FrameShapes::cloth_fields
     bool exact = false;                                  // import_mesh reads the same bits back from a file of one mesh and frame
-    std::function<FrameBytes(const MeshCounts&)> bytes;  // about
+    std::function<FrameBytes(const MeshCounts&)> bytes;  // approximate
     std::function<std::unique_ptr<FrameEncoder>(const FrameCast&)> make;
 };
 

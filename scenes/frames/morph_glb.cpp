@@ -51,7 +51,7 @@ public:
 
     const std::vector<Shape>& shapes() const { return shapes_; }
 
-    /// All coordinates of a shape's places, then of its normals.
+    /// All coordinates of a shape's positions, then of its normals.
     Floats vertices(const Shape& shape, std::size_t frame) {
         const std::uint64_t at = shape.moves ? frames_at_ + frame * frame_bytes_ + shape.vertices_at : shape.vertices_at;
         const std::string bytes = read(at, vertex_bytes(shape));
@@ -91,7 +91,7 @@ Floats differences(const Floats& frame, const Floats& first) {
     return all;
 }
 
-/// Least and largest x, y and z among the first half of the numbers, the places.
+/// The smallest and largest x, y and z among the first half of the numbers, the positions.
 std::array<GlbJson, 2> bounds(const Floats& floats) {
     constexpr float far = std::numeric_limits<float>::max();
     std::array<float, 3> lowest = {far, far, far}, highest = {-far, -far, -far};
@@ -122,7 +122,7 @@ public:
         buffer_bytes_ += bytes;
     }
 
-    /// In the last view; returns its number.
+    /// Adds an accessor in the last view; returns its number.
     std::size_t accessor(const char* type, GlbComponent component, std::uint64_t count, std::uint64_t offset = 0) {
         root_["accessors"].push_back({{"bufferView", root_["bufferViews"].size() - 1},
                                       {"byteOffset", offset},
@@ -132,7 +132,7 @@ public:
         return root_["accessors"].size() - 1;
     }
 
-    /// Places and normals that lie behind one another in the last view.
+    /// Adds accessors of positions and normals that lie behind one another in the last view.
     GlbJson places_and_normals(const Floats& floats, std::uint64_t offset) {
         const std::size_t vertices = floats.size() / 6;
         const std::size_t places = accessor("VEC3", GlbComponent::float_number, vertices, offset);

@@ -9,8 +9,8 @@
 // An animation by morph targets, made in two goes: frames are put behind one another into a file of samples as they come, and the
 // GLB file is made of that at the end, a frame of it in memory at a time.
 //   samples: uint32 shapes; of each uint32 vertices, triangles, moves, then its triangles, uint32, and, if it rests, its
-//   vertices; then of each frame the vertices of the shapes that move. Vertices: x, y, z of all places, then of all unit normals,
-//   float32. All little-endian.
+//   vertices; then of each frame the vertices of the shapes that move. Vertices: x, y, z of all positions, then of all unit
+//   normals, float32. All little-endian.
 namespace percale::scenes {
 
 struct MorphShape {
@@ -23,12 +23,12 @@ struct MorphName {
     bool is_cloth = false;
 };
 
-/// Of samples: a place and a normal.
+/// The size of a vertex in the samples: a position and a normal.
 inline constexpr double morph_bytes_a_vertex = 24.0;
 
-/// What stands before the first frame.
+/// The bytes before the first frame.
 std::string morph_header(std::span<const MorphShape> shapes);
-/// One frame.
+/// The bytes of one frame.
 std::string morph_frame(std::span<const MorphShape> shapes);
 
 /// Unit normals of vertices, sums of those of their triangles by area; 0 where these cancel.

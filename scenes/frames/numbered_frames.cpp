@@ -12,7 +12,7 @@ namespace {
 
 const MeshFields no_fields;
 
-/// The file of a shape, "" where the cast tells of none.
+/// The file of a shape, "" where the cast names none.
 const std::string& obj_file_at(const std::vector<std::string>& files, std::size_t index) {
     static const std::string none;
     return files.empty() ? none : files[index];

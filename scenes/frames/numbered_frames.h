@@ -13,7 +13,7 @@ struct NumberedMesh {
     const std::string& obj_file;  // of FrameCast
 };
 
-/// Writes one to a path, whole or not at all.
+/// Writes one mesh to a path, whole or not at all.
 using MeshWriter = std::function<void(const std::string& path, const NumberedMesh& mesh)>;
 
 /// NAME_00012.obj

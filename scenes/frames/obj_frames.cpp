@@ -17,7 +17,7 @@ const ObjLayout* ObjMeshes::layout_of(const std::string& obj_file, const Triangl
     try {
         if (fresh) layout.emplace(obj_file);
     } catch (const SceneError&) {
-        return nullptr;  // what was simulated is what was read before
+        return nullptr;  // the simulated mesh is the one that was read before
     }
     return layout && layout->fits(mesh) ? &*layout : nullptr;
 }

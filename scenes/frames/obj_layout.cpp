@@ -36,12 +36,12 @@ std::string without_normal(std::string_view corner) {
     return std::string(corner.substr(0, second == first + 1 ? first : second));
 }
 
-/// Where among a polygon's corners those of its triangles are.
+/// The place of a vertex among the corners of a polygon.
 int corner_of(std::span<const int> polygon, int vertex) {
     return static_cast<int>(std::ranges::find(polygon, vertex) - polygon.begin());
 }
 
-/// Corners of a face, which read_obj has taken, by vertex.
+/// The vertices at the corners of a face that read_obj has accepted.
 std::vector<int> vertices_of(std::string_view corners, std::size_t vertices_above, const TextPlace& place) {
     std::vector<int> vertices;
     for (std::string_view word = next_word(corners); !word.empty(); word = next_word(corners)) {

@@ -10,8 +10,8 @@ namespace percale::scenes {
 
 /// An OBJ file but for where its vertices are: its polygons, texture coordinates, groups, materials, colours and whatever else
 /// its lines say, in their order. Normals are left out, since they turn with the shape, and comments. Where a polygon has more
-/// than three corners, a comment `#percale corners 0 1 2 0 2 3` behind it tells which triangles it is, by the numbers of its
-/// corners: elsewhere it would be cut otherwise once it has bent.
+/// than three corners, a comment `#percale corners 0 1 2 0 2 3` behind it names its triangles by the numbers of its corners: a
+/// reader would divide it otherwise once it has bent.
 class ObjLayout {
 public:
     /// Throws SceneError as read_obj does.

@@ -46,7 +46,7 @@ public:
     }
 
 protected:
-    /// Of one shape; `start`: NAME.pc2 without its ending.
+    /// Begins the cache of one shape; `start`: NAME.pc2 without its ending.
     virtual void begin(const std::string& start, int vertices, FrameFolder& folder) = 0;
     virtual void append(const std::string& start, const std::string& floats, FrameFolder& folder) = 0;
     virtual void append_number(std::string& bytes, double number) const = 0;

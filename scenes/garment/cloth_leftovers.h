@@ -8,7 +8,7 @@
 
 namespace percale::scenes {
 
-/// What modelling leaves in a mesh and cloth cannot have: by number, ascending.
+/// Elements that modelling leaves in a mesh and that cloth cannot have, by number, ascending.
 struct Leftovers {
     std::vector<int> vertices;   // of no triangle
     std::vector<int> triangles;  // with the corners of an earlier one, in any order
@@ -19,11 +19,11 @@ struct Leftovers {
 };
 Leftovers leftovers_of(const TriangleMesh& mesh);
 
-/// Leaves them out of a cloth's mesh and of its rest shape; what stays keeps its order. They must be of that mesh.
+/// Removes the leftovers from a cloth's mesh and from its rest shape; what stays keeps its order. They must be of that mesh.
 void drop_leftovers(const Leftovers& leftovers, TriangleMesh& start, RestShape& rest);
 
-/// What of a scene names vertices of a cloth by their numbers, which change where earlier vertices are left out: "pin",
-/// "[[event]]", "[[seam]]"; nothing where it is none.
+/// The part of a scene that names vertices of a cloth by number, which changes where earlier vertices are left out: "pin",
+/// "[[event]]", "[[seam]]"; "" if there is none.
 std::string numbered_use(const Scene& scene, const ClothSpec& cloth);
 
 }  // namespace percale::scenes

@@ -42,7 +42,7 @@ RestShape panel_shape(const PatternMesh& garment, double scale) {
     return shape;
 }
 
-/// The lengths of all edges.
+/// The sum of the lengths of the three edges.
 double length_of(const std::array<Vec3, 3>& x) { return (x[1] - x[0]).norm() + (x[2] - x[1]).norm() + (x[0] - x[2]).norm(); }
 
 void warn_of_scale(const ClothSpec& cloth, const RestShape& shape, const TriangleMesh& start,
@@ -54,14 +54,14 @@ void warn_of_scale(const ClothSpec& cloth, const RestShape& shape, const Triangl
         now += length_of({start.vertices[a], start.vertices[b], start.vertices[c]});
     }
     const double ratio = rest / now;
-    if (ratio > 1.0 / most_rest_ratio && ratio < most_rest_ratio) return;
+    if (ratio > 1.0 / max_rest_ratio && ratio < max_rest_ratio) return;
     const bool uv = cloth.rest == "uv";
     warnings.push_back("cloth '" + cloth.name + "': its edges are " + short_number(ratio) +
                        " times as long in its rest shape as they start" +
                        (uv ? "; with uv_scale = " + short_number(cloth.uv_scale / ratio) + " they would be as long" : ""));
 }
 
-/// A body's are left out, too (Cleaning).
+/// Removes leftovers from a cloth; those of an obstacle are removed by its cleaning (Cleaning).
 void leave_out(const Scene& scene, const ClothSpec& cloth, ClothShape& shape, std::vector<std::string>& warnings) {
     const Leftovers leftovers = leftovers_of(shape.start);
     if (!leftovers.any()) return;

@@ -23,11 +23,12 @@ struct ClothShape {
     std::vector<SewnSeam> seams;  // of a pattern
 };
 
-/// All of it, a pattern meshed once. The start is checked (check_mesh). `warnings`: what is likely a mistake. Throws SceneError.
+/// Makes all of it; a pattern is meshed once. The start is checked (check_mesh). `warnings`: what is likely a mistake. Throws
+/// SceneError.
 ClothShape cloth_shape(const Scene& scene, const ClothSpec& cloth, std::vector<std::string>& warnings);
 
-/// Where a cloth has no strain, in m, the pose's scale applied, and where its warp runs; nothing is said for a cloth that says
-/// neither. `warnings`: what is likely a mistake. Throws SceneError.
+/// The rest shape of a cloth, m, the pose's scale applied, and its direction of warp; empty for a cloth that gives neither.
+/// `warnings`: what is likely a mistake. Throws SceneError.
 RestShape rest_shape(const Scene& scene, const ClothSpec& cloth, const TriangleMesh& start, std::vector<std::string>& warnings);
 
 }  // namespace percale::scenes

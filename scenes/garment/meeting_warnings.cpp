@@ -28,7 +28,7 @@ void warn_of_swapped(const Scene& scene, std::span<const TriangleMesh> starts, s
     if (open != nullptr) warnings.push_back("cloth '" + cloth->name + "': " + swapped_text("obstacle '" + open->name + "'"));
 }
 
-/// Of its triangles' areas, and so of its mass.
+/// The centroid of the triangles' areas, and so of the mass.
 Vec3 middle_of(const TriangleMesh& mesh) {
     Vec3 sum = Vec3::Zero();
     double area = 0.0;
@@ -55,7 +55,7 @@ struct Box {
         lowest.array() -= by;
         highest.array() += by;
     }
-    /// m along the axis where they are farthest apart; below 0 where they overlap.
+    /// The gap to another box along the axis where it is widest, m; below 0 where they overlap.
     double gap(const Box& other) const {
         return std::max((lowest - other.highest).maxCoeff(), (other.lowest - highest).maxCoeff());
     }
@@ -63,7 +63,7 @@ struct Box {
 
 using Neighbours = std::vector<std::vector<int>>;
 
-/// m, of the shortest paths along edges from one vertex to each (Dijkstra 1959); infinite where there is none.
+/// The lengths of the shortest paths along edges from one vertex to each (Dijkstra 1959), m; infinite where there is none.
 std::vector<double> paths_from(int from, const TriangleMesh& mesh, const Neighbours& next) {
     std::vector<double> path(mesh.vertices.size(), std::numeric_limits<double>::infinity());
     std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> open;
@@ -83,8 +83,8 @@ std::vector<double> paths_from(int from, const TriangleMesh& mesh, const Neighbo
     return path;
 }
 
-/// m, which no two of its vertices are farther apart, however it unfolds: twice the longest of the shortest paths along edges
-/// from a vertex in its middle. Infinite where it is of several pieces.
+/// An upper bound of the distance between any two vertices, m, however the cloth unfolds: twice the longest of the shortest paths
+/// along edges from a vertex in its middle. It is infinite for cloth of several pieces.
 double unfolded_size(const TriangleMesh& mesh) {
     Neighbours next(mesh.vertices.size());
     for (const Triangle& t : mesh.triangles) {
@@ -104,7 +104,7 @@ double unfolded_size(const TriangleMesh& mesh) {
     return 2.0 * std::ranges::max(paths_from(middle, mesh, next));
 }
 
-/// Nothing but gravity moves anything, and no cloth another.
+/// Whether nothing but gravity moves anything, and no cloth moves another.
 bool only_falls(const Scene& scene) {
     const auto still = [](const ObstacleSpec& obstacle) {
         const bool endless = obstacle.mesh.empty() && std::holds_alternative<PlaneShape>(obstacle.shape);
@@ -117,8 +117,8 @@ bool only_falls(const Scene& scene) {
            });
 }
 
-/// Where cloth of that size may come: as far around its start, if a pin holds it; else around its middle, which falls along
-/// gravity.
+/// The box that cloth of that size may reach: as far around its start if a pin holds it, else around its middle, which falls
+/// along gravity.
 Box reach_of(const Scene& scene, const ClothSpec& cloth, const TriangleMesh& start, double size) {
     Box box(start);
     const double thickness = scene.fabrics.at(cloth.fabric).thickness;

@@ -9,8 +9,8 @@
 
 namespace percale::scenes {
 
-/// What is likely a mistake about cloths beside obstacles, which nothing refuses: meshes that look swapped, cloth that can meet
-/// no obstacle. `starts`: the cloths of the scene, m; `obstacles`: in the world at the start, m.
+/// Warnings of likely mistakes about cloths beside obstacles, which nothing refuses: meshes that look swapped, cloth that can
+/// meet no obstacle. `starts`: the cloths of the scene, m; `obstacles`: in the world at the start, m.
 std::vector<std::string> meeting_warnings(const Scene& scene, std::span<const TriangleMesh> starts,
                                           std::span<const TriangleMesh> obstacles);
 

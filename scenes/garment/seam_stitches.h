@@ -15,8 +15,8 @@ int cloth_number(const Scene& scene, const std::string& name);
 /// The numbers of the cloths that a seam joins.
 std::array<int, 2> seam_cloths(const Scene& scene, const SeamSpec& seam);
 
-/// All that a seam says: its vertices, its points, its file. Throws SceneError for a file that cannot be read, or where "mesh" is
-/// that of no cloth.
+/// All stitches of a seam: of its vertices, its points and its file. Throws SceneError for a file that cannot be read, or where
+/// "mesh" is that of no cloth.
 std::vector<Stitch> seam_stitches(const Scene& scene, const SeamSpec& seam);
 
 /// Stitches between two cloths of a list.

@@ -26,9 +26,9 @@ std::vector<int> selected(const VertexIndices& indices, const TriangleMesh& mesh
         if (vertex < 0 || vertex >= count) missing.push_back(std::to_string(vertex));
     }
     if (missing.empty()) return sorted_once(indices.vertices);
-    const std::size_t told = std::min<std::size_t>(missing.size(), 8);
-    const std::string more = missing.size() > told ? " and " + std::to_string(missing.size() - told) + " more" : "";
-    throw SceneError((missing.size() == 1 ? "vertex " : "vertices ") + joined(std::span(missing).first(told)) + more +
+    const std::size_t reported = std::min<std::size_t>(missing.size(), 8);
+    const std::string more = missing.size() > reported ? " and " + std::to_string(missing.size() - reported) + " more" : "";
+    throw SceneError((missing.size() == 1 ? "vertex " : "vertices ") + joined(std::span(missing).first(reported)) + more +
                      (missing.size() == 1 ? " is" : " are") + " out of range; allowed: 0 ... " + std::to_string(count - 1));
 }
 

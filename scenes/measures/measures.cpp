@@ -130,7 +130,7 @@ std::vector<Vec3> of_all(const Simulation& simulation, std::span<const ClothId> 
     return all;
 }
 
-/// The cloth of a vertex, counted through all.
+/// The cloth of a vertex; vertices are counted through all cloths.
 int number_of_cloth(const Simulation& simulation, std::span<const ClothId> cloths, std::size_t vertex) {
     std::size_t cloth = 0, end = simulation.positions(cloths[0]).size();
     while (vertex >= end) end += simulation.positions(cloths[++cloth]).size();
@@ -154,7 +154,7 @@ void RestWatch::look(const Simulation& simulation, std::span<const ClothId> clot
     begin(simulation, cloths);
     double fastest = -1.0, sum = 0.0, change = 0.0;
     for (std::size_t i = 0; i < from.size(); ++i) {
-        // Falling asleep and kinetic damping have set velocities to zero, so that the displacement has to tell them.
+        // Falling asleep and kinetic damping have set velocities to zero, so that they are taken from the displacement.
         const Vec3 velocity = asleep || report.stopped ? Vec3((positions_[i] - from[i]) / report.dt) : velocities_[i];
         change = std::max(change, (velocity - before[i]).squaredNorm());
         sum += velocity.squaredNorm();
@@ -187,7 +187,7 @@ double largest_vertex_distance(const Simulation& simulation, std::span<const Clo
 
 void add_pinch(std::vector<Pinch>& pinches, const StepReport& report) {
     if (report.yielded == 0.0) return;
-    if (report.pinched == 0) {  // it goes back
+    if (report.pinched == 0) {  // the surface goes back
         const bool recent = !pinches.empty() && pinches.back().to > report.time - (1.0 + pause_of_pinch) * report.dt;
         if (recent) pinches.back().to = report.time;
         return;
@@ -208,7 +208,7 @@ std::string pinch_text(const Pinch& pinch, const Scene& scene) {
     const auto [first, second] = pinch.obstacles;
     const auto name = [&](int number) { return "'" + scene.obstacles[static_cast<std::size_t>(number)].name + "'"; };
     return name(first) + (first == second ? "" : " and " + name(second)) +
-           " pinched cloth; what yields (on_pinch) was dented, by up to " + short_number(pinch.yielded) + " m, from " +
+           " pinched cloth; the compliant obstacle (on_pinch) gave way by up to " + short_number(pinch.yielded) + " m, from " +
            short_number(pinch.from) + " s to " + short_number(pinch.to) + " s";
 }
 

@@ -36,7 +36,7 @@ void add_certificate(FrameCheck& check, const Certificate& certificate);
 using PairsOfCloths = std::vector<std::array<int, 2>>;
 PairsOfCloths all_pairs(int cloths);
 
-/// Of the pairs that meet; distances between cloths are not measured. `cancel`: as of certify_cloth.
+/// Adds the pairs of cloths that meet; distances between cloths are not measured. `cancel`: as of certify_cloth.
 void add_cloth_certificate(FrameCheck& check, std::span<const TriangleMesh> cloths, std::span<const ClothStitches> seams,
                            std::span<const std::array<int, 2>> meeting, const std::atomic<bool>* cancel = nullptr);
 
@@ -55,17 +55,18 @@ struct StepChecks {
 /// the worse.
 void add_state(StepChecks& checks, int step, double time, const FrameCheck& check);
 
-/// A while in which obstacles gave way to cloth that had no room between them (ObstacleSettings::yields).
+/// A period in which obstacles gave way to cloth that had no room between them (ObstacleSettings::yields).
 struct Pinch {
     std::array<int, 2> obstacles{-1, -1};  // the first one's number first; twice the same where one pinches alone
     double from = 0.0, to = 0.0;           // s
     double yielded = 0.0;                  // m, the largest distance of an obstacle's vertex from where it should have been
 };
 
-/// An accepted step: it makes the last pinch of these obstacles longer, or is a new one. A pinch lasts until its dents are gone.
+/// An accepted step: it makes the last pinch of these obstacles longer, or is a new one. A pinch lasts until its deflections are
+/// gone.
 void add_pinch(std::vector<Pinch>& pinches, const StepReport& report);
 
-/// "'arm' and 'trunk' pinched cloth; what yields (on_pinch) was dented, by up to 0.012 m, from 1.2 s to 1.7 s".
+/// "'arm' and 'trunk' pinched cloth; the compliant obstacle (on_pinch) gave way by up to 0.012 m, from 1.2 s to 1.7 s".
 std::string pinch_text(const Pinch& pinch, const Scene& scene);
 
 /// The measures of a run; the names of the fields are those of scene files and reports.
@@ -89,7 +90,7 @@ struct Measures {
     std::optional<StepChecks> steps;  // if every step was certified
 };
 
-/// Of a scene that ends at rest: how still all cloth was in the last step that was solved.
+/// How still all cloth of a scene that ends at rest was in the last step that was solved.
 struct RestFigures {
     bool at_rest = false;        // proven: all cloth fell asleep, and nothing was to come
     double time = 0.0;           // s, of the state they are of
@@ -107,10 +108,10 @@ public:
 
     const RestFigures& figures() const { return figures_; }
 
-    /// Before a step.
+    /// To be called before a step.
     void begin(const Simulation& simulation, std::span<const ClothId> cloths);
-    /// After it. `over`: nothing is to come. A step that was slept through keeps what is known of the last one that was solved,
-    /// but for time and at_rest.
+    /// To be called after it. `over`: nothing is to come. A step in which all cloth slept keeps what is known of the last one
+    /// that was solved, but for time and at_rest.
     void look(const Simulation& simulation, std::span<const ClothId> cloths, const StepReport& report, const Vec3& gravity,
               bool over);
 
@@ -122,7 +123,7 @@ private:
 /// Why a run that was not at rest at its latest end failed. `cloth`: the name of the fastest.
 std::string not_at_rest_text(const RestFigures& figures, const std::string& cloth);
 
-/// Of two frames with equal distances (0 where both intersect) the one with more intersecting pairs is the worse.
+/// Adds a frame. Of two frames with equal distances (0 where both intersect) the one with more intersecting pairs is the worse.
 void add_frame(Measures& measures, int index, const FrameCheck& check);
 
 /// By how much the total energy rose in a step beyond its work, J, < 0 where it fell. `energy_before`: at the start of the step.
@@ -145,7 +146,7 @@ double largest_vertex_distance(const Simulation& simulation, std::span<const Clo
 std::vector<ExpectationResult> judge_run(std::span<const Expectation> expectations, const Measures& measures,
                                          std::span<const double> timed, const Scene& scene);
 
-/// By name, as expectations use them; worst_frame included, without what was not measured.
+/// The measures by name, as expectations use them; worst_frame included, without what was not measured.
 std::map<std::string, double> measure_values(const Measures& measures);
 
 }  // namespace percale::scenes

@@ -9,15 +9,15 @@ namespace percale::scenes {
 
 namespace {
 
-/// How far a value is from what is expected, < 0 where it is that.
+/// How far a value lies outside its limits; < 0 where it lies within.
 double excess(const Expectation& expectation, double value) {
     return std::max(expectation.lowest - value, value - expectation.highest);
 }
 
-/// Of measures that a run sums up over its frames.
+/// Whether a run sums a measure up over its frames.
 bool is_of_frames(const std::string& measure) { return measure == "intersections" || measure == "deepest_penetration"; }
 
-/// Of measures that a run has at its end only.
+/// Whether a run has a measure at its end only.
 bool is_of_end(const std::string& measure) {
     static constexpr std::array names = {"speed_at_end", "rms_speed_at_end", "lowest_vertex", "largest_seam_gap", "matches"};
     return std::ranges::find(names, measure) != names.end();

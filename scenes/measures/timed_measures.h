@@ -21,9 +21,9 @@ struct StateFigures {
     bool framed = false;                                            // an output frame shows it
 };
 
-/// What expectations with a time of their own measure. `at`: of the first state at that time or after it, everything is of that
-/// state. `during`: over the states, or frames, in between, as over a whole run; what a run has at its end only (speeds, heights,
-/// distances from a mesh) must hold in each state, and the value is that of the state farthest from what is expected.
+/// What expectations with a time of their own measure. `at`: everything is measured in the first state at that time or after it.
+/// `during`: it is measured over the states, or frames, in between, as over a whole run; what a run has at its end only (speeds,
+/// heights, distances from a mesh) must hold in each state, and the value is that of the state farthest from what is expected.
 class TimedMeasures {
 public:
     /// `expectations`: all of a scene, also those without times, which are passed over. `slack`: s, how far a state may be before
@@ -33,7 +33,7 @@ public:
     /// States come in the order of their times.
     void look(const StateFigures& state);
 
-    /// What is known so far of each expectation, NaN: nothing yet; for a checkpoint, too. `last`: s, of the last state.
+    /// The value of each expectation so far, NaN: none yet; for a checkpoint, too. `last`: s, of the last state.
     const std::vector<double>& values() const { return values_; }
     void go_on_from(std::vector<double> values, double last);
     /// Vertices of all cloths where an expectation with `at` compares them with a mesh; empty elsewhere.

@@ -157,7 +157,7 @@ std::vector<Part> largest_solids(const std::vector<Part>& parts) {
     for (const Part& part : parts)
         if (part.used && !part.open && part.volume > 0.0) solids.push_back(part);
     std::sort(solids.begin(), solids.end(), [](const Part& a, const Part& b) { return a.volume > b.volume; });
-    if (solids.size() > most_solids) solids.resize(most_solids);
+    if (solids.size() > max_solids) solids.resize(max_solids);
     return solids;
 }
 
@@ -256,7 +256,7 @@ NearRims near_rims(const TriangleMesh& mesh, const MeshFacts& facts, double dist
     for (const Side& side : sorted_sides(mesh.triangles)) joined.push_back(side.ends);
     std::sort(joined.begin(), joined.end());
 
-    // Of the edges of the rim at a vertex the shortest: what is nearer than half of it lies on another stretch of rim.
+    // The shortest rim edge at each vertex: a vertex nearer than half of it lies on another part of the rim.
     std::vector<double> shortest(mesh.vertices.size(), std::numeric_limits<double>::infinity());
     for (const auto& [a, b] : facts.open_edges) {
         const double length = (mesh.vertices[a] - mesh.vertices[b]).norm();

@@ -35,10 +35,10 @@ struct MeshFacts {
     double farthest() const { return lowest.cwiseAbs().cwiseMax(highest.cwiseAbs()).maxCoeff(); }
 };
 
-/// Of a mesh with finite coordinates and indices in range.
+/// `mesh`: with finite coordinates and indices in range.
 MeshFacts mesh_facts(const TriangleMesh& mesh);
 
-/// Of its lists, alone.
+/// Two of its lists, each alone.
 std::vector<int> unused_vertices(const TriangleMesh& mesh);
 std::vector<int> repeated_triangles(const std::vector<Triangle>& triangles);
 

@@ -69,7 +69,7 @@ auto read_with(Read read, const std::string& file) {
     return read(in, file);
 }
 
-/// By our own reader; nothing for the format of a model.
+/// Reads a file by our own reader; nothing for the format of a model.
 std::optional<TriangleMesh> read_own(const std::string& format, const std::string& file, const std::string& part) {
     if (format == ".obj") {
         return read_with([&](std::istream& in, const std::string& name) { return read_obj(in, name, part); }, file);
@@ -81,7 +81,7 @@ std::optional<TriangleMesh> read_own(const std::string& format, const std::strin
     return std::nullopt;
 }
 
-/// Of a model's format.
+/// Reads a file in the format of a model.
 TriangleMesh read_model(const std::string& file, std::vector<std::string>* warnings, const std::string& part) {
     JoinedModel model = read_joined_model(file, part);
     weld(model);

@@ -21,9 +21,9 @@ bool is_mesh_file(const std::string& file);
 /// are multiplied by `unit` (m per unit of the file, > 0). Throws SceneError naming the file, and the line for OBJ, OFF and PLY
 /// in text: missing or unreadable file, empty, NaN or infinite coordinate, index out of range, no triangles, a header that claims
 /// more than the file can hold, another format, copies of parts beyond 64 in the mean and 100000 vertices. `warnings`, where not
-/// null: what of the file is left out that it moves by. `part`: an object or group of an OBJ file, or a node or mesh of what
-/// assimp reads (but STL), that is taken alone, with its own vertices; "": all. `weld`, m: vertices within that of an earlier one
-/// become one with it (weld_near), triangles that lose a corner by that are left out, which is warned of; 0: none.
+/// null, gets what is left out of the file that makes it move. `part`: an object or group of an OBJ file, or a node or mesh of
+/// what assimp reads (but STL), that is taken alone, with its own vertices; "": all. `weld`, m: vertices within that of an
+/// earlier one become one with it (weld_near), triangles that lose a corner by that are left out, which is warned of; 0: none.
 TriangleMesh import_mesh(const std::string& file, double unit = 1.0, std::vector<std::string>* warnings = nullptr,
                          const std::string& part = {}, double weld = 0.0);
 

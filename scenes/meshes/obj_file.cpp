@@ -23,7 +23,7 @@ struct FaceList {
     std::vector<long long> textures;  // of the corners; -1: none
     std::vector<std::size_t> ends;    // one past a face's last corner
     std::vector<std::size_t> lines;   // where the face stands
-    /// How faces are cut into triangles, by the numbers of their corners, where the file tells (ObjLayout).
+    /// How faces are cut into triangles, by the numbers of their corners, where the file says it (ObjLayout).
     std::map<std::size_t, std::vector<Triangle>> cuts;
 };
 
@@ -39,7 +39,7 @@ public:
 
     /// A line `o NAME` or `g NAME...`: what the next faces belong to.
     void enter(std::string_view keyword, std::string_view line) {
-        told_ = false;
+        reported_ = false;
         if (keyword == "o") {
             const std::size_t first = line.find_first_not_of(" \t"), last = line.find_last_not_of(" \t\r");
             object_ = first == std::string_view::npos ? "" : std::string(line.substr(first, last - first + 1));
@@ -51,7 +51,7 @@ public:
 
     bool takes_next_face() {
         if (part_.empty()) return true;
-        if (!std::exchange(told_, true)) {
+        if (!std::exchange(reported_, true)) {
             names_.add(object_);
             for (const std::string& group : groups_) names_.add(group);
         }
@@ -65,7 +65,7 @@ private:
     std::string object_;
     std::vector<std::string> groups_;
     PartNames names_;
-    bool told_ = false;  // what the next faces belong to is among the names
+    bool reported_ = false;  // what the next faces belong to is among the names
 };
 
 /// Indices of one corner as they stand in the file; texture 0: none.
@@ -101,7 +101,7 @@ Corner read_corner(std::string_view word, const TextPlace& place) {
     return corner;
 }
 
-/// Counted from 0, or backwards from what stands above the line; -1: none.
+/// The index counted from 0, -1: none. A negative index in the file counts backwards from what stands above the line.
 long long from_zero(long long index, std::size_t so_far) {
     return index >= 0 ? index - 1 : std::max(-1LL, static_cast<long long>(so_far) + index);
 }

@@ -10,7 +10,7 @@ namespace percale::scenes {
 
 namespace {
 
-// "0 0 0\n" and "3 0 1 2\n": the least a vertex and a face take.
+// "0 0 0\n" and "3 0 1 2\n": the minimum that a vertex and a face take.
 constexpr std::size_t bytes_per_vertex = 6, bytes_per_face = 8;
 
 struct OffText {
@@ -56,12 +56,12 @@ std::string_view counts_line(OffText& text) {
     return second.empty() ? next_line(text) : after;
 }
 
-std::size_t read_count(std::string_view& line, const OffText& text, const char* what, std::size_t most) {
+std::size_t read_count(std::string_view& line, const OffText& text, const char* what, std::size_t max) {
     const long long count = to_integer(next_word(line), text.place(), what);
     if (count < 1) fail_at_line(text.place(), std::string(what) + " is " + std::to_string(count));
-    if (static_cast<unsigned long long>(count) > most)
+    if (static_cast<unsigned long long>(count) > max)
         fail_at_line(text.place(), std::string(what) + " is " + std::to_string(count) + ", but the file can hold " +
-                                       std::to_string(most) + " at most");
+                                       std::to_string(max) + " at most");
     return static_cast<std::size_t>(count);
 }
 

@@ -30,7 +30,7 @@ struct PlyProperty {
     std::string_view name = {};
 
     bool is_list() const { return length.bytes > 0; }
-    /// Whether it is a field of vertices, where it is no coordinate.
+    /// Whether it is a field of vertices, unless it is a coordinate.
     bool is_real() const { return !is_list() && item.kind == PlyType::Kind::real; }
 };
 
@@ -142,16 +142,16 @@ const PlyElement* find_element(const PlyHeader& header, std::string_view name) {
 
 void read_element(std::string_view line, const TextPlace& place, PlyHeader& header) {
     const std::string_view name = read_name(line, place, "element");
-    const long long count = to_integer(next_word(line), place, "element count"), most = std::numeric_limits<int>::max();
-    if (count < 0 || count > most)
-        fail_at_line(place, "element count " + std::to_string(count) + " is out of range 0 ... " + std::to_string(most));
+    const long long count = to_integer(next_word(line), place, "element count"), max = std::numeric_limits<int>::max();
+    if (count < 0 || count > max)
+        fail_at_line(place, "element count " + std::to_string(count) + " is out of range 0 ... " + std::to_string(max));
     check_end(line, place);
     const bool is_known = name == "vertex" || has_corners(name);
     if (is_known && find_element(header, name) != nullptr) fail_at_line(place, "a second element " + shown(name));
     header.elements.push_back({name, place.line, static_cast<std::size_t>(count)});
 }
 
-/// What must be there for a mesh.
+/// Checks that the file has what a mesh needs.
 void check_needed(const PlyHeader& header, const std::string& name) {
     const PlyElement *vertex = find_element(header, "vertex"), *face = find_element(header, "face");
     if (vertex == nullptr) throw SceneError(name, "no vertices: the header has no element \"vertex\"");
@@ -173,8 +173,9 @@ void check_needed(const PlyHeader& header, const std::string& name) {
     if (lists == 0) fail_at_line({name, (face != nullptr ? face : strips)->line}, "no triangles: the count of faces is 0");
 }
 
-/// The least that an element takes: in text a digit and a blank for each number, in binary an empty list its length alone.
-std::size_t least_bytes(const PlyElement& element, bool text) {
+/// The minimum size of an element, bytes: in text a digit and a blank for each number, in binary an empty list takes its length
+/// alone.
+std::size_t min_bytes(const PlyElement& element, bool text) {
     if (text) return 2 * element.properties.size();
     std::size_t bytes = 0;
     for (const PlyProperty& property : element.properties) bytes += (property.is_list() ? property.length : property.item).bytes;
@@ -185,7 +186,7 @@ void check_counts(const PlyHeader& header, const PlyText& text) {
     const bool is_text = header.format == PlyHeader::Format::text;
     std::size_t left = text.rest.size() + (is_text ? 1 : 0);  // the last line may lack its line end
     for (const PlyElement& element : header.elements) {
-        const std::size_t each = least_bytes(element, is_text);
+        const std::size_t each = min_bytes(element, is_text);
         if (each == 0) continue;
         if (element.count > left / each)
             fail_at_line({text.name, element.line}, "the header claims " + std::to_string(element.count) + " elements " +
@@ -234,7 +235,7 @@ public:
     void begin(const PlyElement& element, std::size_t number);
     void end() const;
     double coordinate(PlyType type, const char* what);
-    /// Of a real type; infinite or no number, too.
+    /// The next number of a real type, which may be infinite or NaN.
     double any_number(PlyType type);
     long long whole(PlyType type, const char* what);
     void skip(const PlyProperty& property);
@@ -287,7 +288,7 @@ long long PlyBody::whole(PlyType type, const char* what) {
     if (is_text_) return to_integer(next_word(words_), text_.place(), what);
     const std::uint64_t value = bits(type.bytes);
     if (type.kind == PlyType::Kind::unsigned_whole) return static_cast<long long>(value);
-    // The sign bit goes to the top and is drawn down again.
+    // The sign bit is shifted to the top, and the shift back extends it.
     const std::size_t unused = 64 - 8 * type.bytes;
     return static_cast<std::int64_t>(value << unused) >> unused;
 }

@@ -9,10 +9,11 @@
 
 namespace percale::scenes {
 
-/// Numbers of points, by cubes of a size: what is so near lies in the same cube or in one beside it.
+/// Numbers of points, sorted into cubes of a size: two points that are no farther apart lie in the same cube or in neighbouring
+/// ones.
 class PointCells {
 public:
-    explicit PointCells(double size) : size_(size * (1.0 + 1e-9)) {}  // what is that far apart is, rounded, too
+    explicit PointCells(double size) : size_(size * (1.0 + 1e-9)) {}  // so that rounding misses no pair that is just so far apart
 
     void add(int number, const Vec3& x) { cells_[cell_of(x)].push_back(number); }
 

@@ -14,7 +14,7 @@ namespace percale::scenes {
 
 namespace {
 
-/// Whether text in wide characters begins with "solid". A binary title may hold what it likes.
+/// Whether text in wide characters begins with "solid". A binary title may hold anything.
 bool is_wide_text(std::string_view start) {
     std::string letters;
     for (const char byte : start.substr(0, 12))
@@ -25,7 +25,7 @@ bool is_wide_text(std::string_view start) {
 }  // namespace
 
 /// Binary STL: 80 bytes of title, a 32-bit count, 50 bytes a triangle. Text files start with "solid" and have no counts; a binary
-/// title may start so, too, and is told by its size.
+/// title may start so, too, and is recognised by its size.
 void check_stl_header(const std::string& file) {
     errno = 0;
     std::ifstream in(file, std::ios::binary);
@@ -42,10 +42,10 @@ void check_stl_header(const std::string& file) {
     std::uint32_t count = 0;
     for (int k = 3; k >= 0; --k) count = count << 8 | static_cast<unsigned char>(start[80 + k]);
     in.seekg(0, std::ios::end);
-    const std::streamoff most = (in.tellg() - static_cast<std::streamoff>(sizeof start)) / 50;
-    if (count > most && !says_solid)
+    const std::streamoff max = (in.tellg() - static_cast<std::streamoff>(sizeof start)) / 50;
+    if (count > max && !says_solid)
         throw SceneError(file, "the header claims " + std::to_string(count) + " triangles, but the file can hold " +
-                                   std::to_string(most) + " at most");
+                                   std::to_string(max) + " at most");
 }
 
 }  // namespace percale::scenes

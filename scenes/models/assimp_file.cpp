@@ -101,7 +101,7 @@ private:
         return found->second;
     }
 
-    /// A mesh's own, for all nodes that it hangs on.
+    /// Adds the skin of a mesh, for all nodes that it hangs on.
     void add_skin(const aiMesh& mesh, int number) {
         if (mesh.mNumBones == 0) return;
         ModelSkin skin;
@@ -147,7 +147,7 @@ private:
         for (const aiMeshMorphKey& key : std::span(channel.mKeys, channel.mNumKeys)) {
             std::vector<double> weights;
             for (unsigned k = 0; k < key.mNumValuesAndWeights; ++k) {
-                if (key.mValues[k] >= most_morph_targets) continue;
+                if (key.mValues[k] >= max_morph_targets) continue;
                 weights.resize(std::max<std::size_t>(weights.size(), key.mValues[k] + 1));
                 weights[key.mValues[k]] += key.mWeights[k];
             }

@@ -36,7 +36,7 @@ double value_at(const std::byte* from, bool normalized) {
     return std::max(value / static_cast<double>(std::numeric_limits<Number>::max()), -1.0);
 }
 
-/// Nothing where it holds what base64 has not.
+/// The bytes of a text in base64; nothing where it holds a letter that base64 does not have.
 std::optional<std::vector<std::byte>> from_base64(std::string_view text) {
     std::vector<std::byte> bytes;
     unsigned bits = 0, have = 0;
@@ -54,7 +54,7 @@ std::optional<std::vector<std::byte>> from_base64(std::string_view text) {
     return bytes;
 }
 
-/// %20 as a space.
+/// A URI with its escapes decoded: %20 is a space.
 std::string decoded(const std::string& uri) {
     std::string text;
     const auto digit = [](char letter) {
@@ -164,7 +164,7 @@ void GltfDocument::check_extensions() const {
 }
 
 void GltfDocument::read_buffers(std::optional<std::vector<std::byte>> binary) {
-    check_extensions();  // the buffers of some are no buffers
+    check_extensions();  // the buffers of some extensions are no buffers
     const std::size_t count = list("buffers").size();
     for (std::size_t k = 0; k < count; ++k) {
         const GltfJson& buffer = at("buffers", k);
@@ -210,7 +210,7 @@ const GltfJson& GltfDocument::at(const char* name, std::size_t number) const {
 std::optional<std::size_t> GltfDocument::number(const GltfJson& object, const char* key, std::size_t count) const {
     const auto found = object.find(key);
     if (found == object.end()) return std::nullopt;
-    // Writers write 3.0, too.
+    // Some writers write 3.0.
     const bool whole = found->is_number_unsigned() ||
                        (found->is_number_float() && found->get<double>() >= 0.0 && found->get<double>() < 9e15 &&
                         found->get<double>() == static_cast<double>(static_cast<std::uint64_t>(found->get<double>())));
@@ -298,9 +298,9 @@ std::vector<double> GltfDocument::numbers(std::size_t number_of_accessor, std::s
     if (count > std::max(bytes_, always_allowed_vertices))
         refuse("accessor " + std::to_string(number_of_accessor) + " claims " + std::to_string(count) +
                " elements, more than its buffers hold");
-    asked_ += count * components;
-    if (asked_ > std::max(most_part_copies * always_allowed_vertices, most_number_copies * bytes_))
-        refuse("its parts use the same numbers over and over, " + std::to_string(asked_) + " in all; give each its own");
+    query_boxes_ += count * components;
+    if (query_boxes_ > std::max(max_part_copies * always_allowed_vertices, max_number_copies * bytes_))
+        refuse("its parts use the same numbers over and over, " + std::to_string(query_boxes_) + " in all; give each its own");
     std::vector<double> numbers(count * components);
     if (const auto view = number(accessor, "bufferView", GltfDocument::any))
         read_elements(view_of(*view), number(accessor, "byteOffset", GltfDocument::any).value_or(0), layout, count,

@@ -13,7 +13,7 @@ namespace percale::scenes {
 /// of its buffers. Whatever throws, throws SceneError naming the file, or json::exception where a value is of another type.
 class GltfDocument {
 public:
-    /// More than any number of a file.
+    /// A bound above any number of a file.
     static constexpr std::size_t any = std::size_t{1} << 53;
 
     explicit GltfDocument(const std::string& file);
@@ -22,19 +22,19 @@ public:
 
     /// A list of the document: "nodes"; empty where it has none.
     const nlohmann::json& list(const char* name) const;
-    /// Its element.
+    /// An element of that list.
     const nlohmann::json& at(const char* name, std::size_t number) const;
-    /// A whole number that an object has, below `count`; nothing where it has not got it.
+    /// A whole number that an object has, below `count`; nothing where it has none.
     std::optional<std::size_t> number(const nlohmann::json& object, const char* key, std::size_t count) const;
     /// The same for a key that has to be there.
     std::size_t required(const nlohmann::json& object, const char* key, std::size_t count) const;
 
-    /// Numbers of an accessor, element by element: `components` each; integers as they are, or where they are normalized as
-    /// shares of the largest (3.11 of the specification). Refuses where all that was asked for comes to far more than the buffers
-    /// hold: a small file may name one accessor without end.
+    /// Numbers of an accessor, element by element: `components` each; integers as they are, or, where they are normalized, as
+    /// fractions of the largest one (3.11 of the specification). Refuses where all that was asked for comes to far more than the
+    /// buffers hold: a small file may name one accessor without end.
     std::vector<double> numbers(std::size_t accessor, std::size_t components) const;
 
-    /// Of all its buffers.
+    /// The size of all its buffers, bytes.
     std::size_t buffer_bytes() const { return bytes_; }
 
     [[noreturn]] void refuse(const std::string& fault) const;
@@ -53,7 +53,7 @@ private:
 
     void read_document(const std::vector<std::byte>& bytes);
     void read_glb(const std::vector<std::byte>& bytes);
-    /// Refuses extensions that hide vertices or place meshes; others are of looks.
+    /// Refuses extensions that hide vertices or place meshes; others only change the appearance.
     void check_extensions() const;
     void read_buffers(std::optional<std::vector<std::byte>> binary);
     std::vector<std::byte> buffer_at(const std::string& uri) const;
@@ -66,8 +66,8 @@ private:
     std::string file_;
     nlohmann::json json_;
     std::vector<std::vector<std::byte>> buffers_;
-    std::size_t bytes_ = 0;          // of all buffers
-    mutable std::size_t asked_ = 0;  // numbers, in all calls of `numbers`
+    std::size_t bytes_ = 0;                // of all buffers
+    mutable std::size_t query_boxes_ = 0;  // numbers, in all calls of `numbers`
 };
 
 }  // namespace percale::scenes

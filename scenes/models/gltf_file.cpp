@@ -20,7 +20,7 @@ namespace {
 
 using GltfJson = nlohmann::json;
 
-/// What a list of numbers has at each place; `without` where the object has not got it.
+/// The numbers of a list; `without` where the object has no such list.
 template <std::size_t count>
 std::array<double, count> numbers_at(const GltfDocument& document, const GltfJson& object, const char* key,
                                      const std::array<double, count>& without) {
@@ -50,8 +50,8 @@ std::vector<Vec3> vectors(const std::vector<double>& numbers) {
     return result;
 }
 
-/// The corners of triangles of a mode of the specification: 4 triangles, 5 a strip, 6 a fan; none of points and lines. Of strips
-/// and fans triangles with a vertex twice are left out, by which they are joined.
+/// The corners of triangles of a mode of the specification: 4 triangles, 5 a strip, 6 a fan; none of points and lines. Triangles
+/// with a vertex twice, which join strips and fans, are left out.
 std::vector<int> triangle_corners(std::size_t mode, const std::vector<int>& indices) {
     std::vector<int> corners;
     const std::size_t count = indices.size();
@@ -140,7 +140,7 @@ private:
         return indices;
     }
 
-    /// Of all sets of four.
+    /// Adds the bone weights of all sets of four.
     void add_shares(const GltfJson& attributes, ModelMesh& mesh) const {
         for (int set = 0;; ++set) {
             const std::string joints = "JOINTS_" + std::to_string(set), weights = "WEIGHTS_" + std::to_string(set);
@@ -160,11 +160,11 @@ private:
         }
     }
 
-    /// Displacements in the file, places in a model.
+    /// Adds morph targets, which are displacements in the file and positions in a model.
     void add_targets(const GltfJson& primitive, const GltfJson& mesh_json, ModelMesh& mesh) const {
         const GltfJson targets = primitive.value("targets", GltfJson::array());
         const GltfJson weights = mesh_json.value("weights", GltfJson::array());
-        if (targets.size() > most_morph_targets) document_.refuse(std::to_string(targets.size()) + " morph targets are too many");
+        if (targets.size() > max_morph_targets) document_.refuse(std::to_string(targets.size()) + " morph targets are too many");
         for (std::size_t k = 0; k < targets.size(); ++k) {
             MorphTarget target{.vertices = {}, .weight = k < weights.size() ? weights[k].get<double>() : 0.0};
             if (const auto accessor = document_.number(targets[k], "POSITION", GltfDocument::any)) {
@@ -177,7 +177,7 @@ private:
         }
     }
 
-    /// Parents first, each node once.
+    /// Adds each node once, parents first.
     void add_nodes() {
         const std::size_t count = document_.list("nodes").size();
         std::vector<int> parents(count, -1);
@@ -275,7 +275,7 @@ private:
         return track;
     }
 
-    /// Of so many targets.
+    /// The weights of a number of targets on a node.
     ModelMorphs morphs_of(const GltfJson& sampler, std::size_t node, std::size_t targets) const {
         ModelMorphs morphs{
             .nodes = {numbers_[node]}, .interpolation = interpolation_of(sampler), .times = times_of(sampler), .weights = {}};
@@ -314,7 +314,7 @@ private:
         model_.clips.push_back(std::move(clip));
     }
 
-    /// Of a node; at first with what the node has without an animation.
+    /// The channel of a node, which at first holds the node's own transform.
     ModelChannel& channel_of(ModelClip& clip, std::size_t node) const {
         const auto found = std::ranges::find(clip.channels, numbers_[node], &ModelChannel::node);
         if (found != clip.channels.end()) return *found;

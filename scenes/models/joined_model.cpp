@@ -19,15 +19,15 @@ namespace percale::scenes {
 namespace {
 
 /// How often a file places its parts is not bounded by its size: vertices allowed.
-std::size_t most_vertices(const Model& model) {
+std::size_t max_vertices(const Model& model) {
     std::size_t own = 0;
     for (const ModelMesh& mesh : model.meshes) own += mesh.vertices.size();
-    return std::max(always_allowed_vertices, most_part_copies * own);
+    return std::max(always_allowed_vertices, max_part_copies * own);
 }
 
 /// Names the vertices of the parts that are wanted. A mesh without faces has none: points and lines.
 std::vector<VertexOrigin> origins_of(const Model& model, const std::string& file, const std::string& wanted) {
-    const std::size_t most = most_vertices(model);
+    const std::size_t max = max_vertices(model);
     std::vector<VertexOrigin> origins;
     PartNames names;
     for (std::size_t node = 0; node < model.nodes.size(); ++node) {
@@ -37,9 +37,9 @@ std::vector<VertexOrigin> origins_of(const Model& model, const std::string& file
             for (const std::string& name : {model.nodes[node].name, mesh.name}) names.add(name);
             const bool taken = wanted.empty() || wanted == model.nodes[node].name || wanted == mesh.name;
             if (!taken || mesh.face_sizes.empty()) continue;
-            if (origins.size() + mesh.vertices.size() > most)
+            if (origins.size() + mesh.vertices.size() > max)
                 throw SceneError(file,
-                                 "copies of its parts come to more than " + std::to_string(most) + " vertices; leave some out");
+                                 "copies of its parts come to more than " + std::to_string(max) + " vertices; leave some out");
             for (std::size_t k = 0; k < mesh.vertices.size(); ++k) {
                 check_finite(mesh.vertices[k], origins.size(), file);
                 origins.push_back({static_cast<int>(node), static_cast<int>(part), static_cast<int>(k)});

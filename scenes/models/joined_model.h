@@ -26,7 +26,7 @@ JoinedModel read_joined_model(const std::string& file, const std::string& part =
 JoinedModel join(Model model, const std::string& file, const std::string& part = {});
 
 /// Exporters split vertices at seams of texture or shading, and STL shares none: vertices at one place become one, in the order
-/// of first appearance. Those for which `alike`, where given, is false of a vertex and a first one stay apart.
+/// of first appearance. A vertex and a first one stay apart where `alike` is given and returns false for them.
 void weld(JoinedModel& joined, const std::function<bool(int vertex, int first)>& alike = {});
 
 /// Throws SceneError naming the file and the vertex where a coordinate is NaN or infinite.

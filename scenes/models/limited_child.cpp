@@ -27,7 +27,7 @@ namespace {
 /// The first byte that a child sends.
 enum class Word : unsigned char { result, error, no_memory };
 
-/// Wall time allowed, in CPU seconds allowed: a child that sleeps for ever ends, too.
+/// The allowed wall time over the allowed CPU time: a child that sleeps for ever ends, too.
 constexpr double wall_over_cpu = 10.0;
 
 std::string megabytes(std::uint64_t bytes) { return std::to_string(bytes >> 20) + " MB"; }
@@ -94,7 +94,7 @@ void send(int to, Word word, std::span<const std::byte> bytes) {
     _exit(1);  // never back into the program that this is a copy of
 }
 
-/// What comes until the other side closes; false where that takes too long.
+/// Receives bytes until the other side closes; false where that takes too long.
 bool receive(int from, double seconds, std::vector<std::byte>& bytes) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
     std::vector<std::byte> part(std::size_t{1} << 16);

@@ -10,18 +10,18 @@
 namespace percale::scenes {
 namespace {
 
-/// Kept, and listed in a message.
-constexpr std::size_t most_kept = 1000, most_listed = 20;
+/// Maximum numbers of names that are kept, and that a message lists.
+constexpr std::size_t max_kept = 1000, max_listed = 20;
 
 }  // namespace
 
 void PartNames::add(const std::string& name) {
     const bool is_new = !name.empty() && std::ranges::find(names_, name) == names_.end();
-    if (is_new && names_.size() < most_kept) names_.push_back(name);
+    if (is_new && names_.size() < max_kept) names_.push_back(name);
 }
 
 void PartNames::fail(const std::string& file, const std::string& part) const {
-    const auto listed = std::span(names_).first(std::min(names_.size(), most_listed));
+    const auto listed = std::span(names_).first(std::min(names_.size(), max_listed));
     std::string others = "; the file names none";
     if (!names_.empty()) {
         const std::string nearest = did_you_mean(part, names_);

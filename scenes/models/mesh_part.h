@@ -10,7 +10,7 @@ namespace percale::scenes {
 /// The objects and groups with faces that a file names, for the message where one that is wanted is not among them.
 class PartNames {
 public:
-    /// Once each, "" not at all; a thousand at most.
+    /// Adds each name once and "" not at all; keeps at most a thousand names.
     void add(const std::string& name);
     /// Throws SceneError: the file has no such part.
     [[noreturn]] void fail(const std::string& file, const std::string& part) const;

@@ -18,7 +18,7 @@ struct BoneShare {
     double share = 0.0;
 };
 
-/// Where each vertex is when the target is mixed in whole; empty: it moves none.
+/// The position of each vertex where the target has weight 1; empty: it moves none.
 struct MorphTarget {
     std::vector<Vec3> vertices;
     double weight = 0.0;  // without an animation

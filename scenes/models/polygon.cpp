@@ -68,7 +68,7 @@ private:
     /// The smallest angle of the ear at a corner; 0 where it is none.
     double judge(int k) const {
         const Point2 &a = x_[before_[k]], &b = x_[k], &c = x_[after_[k]];
-        const double none = least_turn_of(a, b, c);
+        const double none = min_turn_of(a, b, c);
         if (turn(k) <= none) return 0.0;
         // Points on a side count as inside, also where they are rounded off it: else what is left may lie on one line.
         for (int other = after_[after_[k]]; other != before_[k]; other = after_[other]) {
@@ -103,11 +103,11 @@ std::vector<Triangle> fan(int count) {
     return triangles;
 }
 
-/// Whether no triangle of the fan lies on its back or has no area.
+/// Whether every triangle of the fan has an area and is turned like the polygon.
 bool is_fan(std::span<const Point2> polygon) {
     for (std::size_t k = 2; k < polygon.size(); ++k) {
         const Point2 &a = polygon[0], &b = polygon[k - 1], &c = polygon[k];
-        if (turn_left(a, b, c) <= least_turn_of(a, b, c)) return false;
+        if (turn_left(a, b, c) <= min_turn_of(a, b, c)) return false;
     }
     return true;
 }
@@ -125,15 +125,15 @@ double smallest_angle_of(const Point2& a, const Point2& b, const Point2& c) {
     return std::min({angle(b - a, c - a), angle(c - b, a - b), angle(a - c, b - c)});
 }
 
-double least_turn_of(const Point2& a, const Point2& b, const Point2& c) {
-    return least_turn * std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+double min_turn_of(const Point2& a, const Point2& b, const Point2& c) {
+    return min_turn * std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
 }
 
 std::optional<std::vector<Triangle>> cut_ears(std::span<const Point2> outline) { return EarClipper(outline).clip(); }
 
 std::vector<Triangle> polygon_triangles(std::span<const Vec3> corners) {
     const int count = static_cast<int>(corners.size());
-    if (count <= 3 || corners.size() > most_cut_corners) return fan(count);
+    if (count <= 3 || corners.size() > max_cut_corners) return fan(count);
     const std::vector<Point2> seen = seen_along_normal(corners);
     if (seen.empty() || is_fan(seen)) return fan(count);
     return cut_ears(seen).value_or(fan(count));
@@ -154,8 +154,9 @@ std::vector<Triangle> triangles_of(const PolygonList& polygons, std::span<const 
 
 bool are_same_polygons(std::span<const Triangle> some, std::span<const Triangle> others) {
     if (some.size() != others.size()) return false;
-    // Of the triangles since the last polygon's end: sides, one list's counted up, the other's down, opposite ones against each
-    // other, and vertices. Where no side is left, both have gone round the same; n + 2 vertices of n triangles are a polygon's.
+    // Sides and vertices of the triangles since the end of the last polygon. Sides of one list count up, those of the other down,
+    // and opposite sides cancel. Where no side is left, both lists have the same outline; n triangles with n + 2 vertices are a
+    // polygon.
     std::map<std::array<int, 2>, int> sides;
     std::set<int> vertices;
     std::size_t count = 0;

@@ -13,14 +13,14 @@ using Point2 = Eigen::Vector2d;
 /// > 0 where a, b, c turn left: twice the area of the triangle, m^2.
 double turn_left(const Point2& a, const Point2& b, const Point2& c);
 
-/// What turn_left has to be above for a triangle to have an area beside rounding, m^2.
-double least_turn_of(const Point2& a, const Point2& b, const Point2& c);
+/// The value that turn_left has to exceed for a triangle to have an area beside rounding, m^2.
+double min_turn_of(const Point2& a, const Point2& b, const Point2& c);
 
-/// Of a triangle, rad.
+/// The smallest angle of a triangle, rad.
 double smallest_angle_of(const Point2& a, const Point2& b, const Point2& c);
 
 /// The triangles of a simple polygon, counter-clockwise, by its points' numbers: corners are cut off, the best shaped first.
-/// Nothing where it crosses or touches itself. Time: as its number of points squared, or more.
+/// Nothing where it crosses or touches itself. The time grows at least with the square of its number of points.
 std::optional<std::vector<Triangle>> cut_ears(std::span<const Point2> outline);
 
 /// Polygons of a mesh file.
@@ -48,7 +48,7 @@ private:
 /// crosses or touches itself, and with more than 10,000 corners, a fan. Fewer than three corners give nothing.
 std::vector<Triangle> polygon_triangles(std::span<const Vec3> corners);
 
-/// Of all polygons, by vertices.
+/// The triangles of all polygons, by vertices.
 std::vector<Triangle> triangles_of(const PolygonList& polygons, std::span<const Vec3> vertices);
 
 /// Whether two lists are the triangles of the same polygons in the same order, which may be cut differently where their vertices

@@ -15,11 +15,11 @@ std::vector<int> every_nth(int frames, int worst, int every) {
 
 }  // namespace
 
-FrameChoice choose_frames(int frames, int worst, std::size_t fixed, std::size_t each, std::size_t most) {
-    // The whole of `frames` is every: then the first, the worst and the last are left.
+FrameChoice choose_frames(int frames, int worst, std::size_t fixed, std::size_t each, std::size_t max) {
+    // At the end `every` is `frames`: then only the first, the worst and the last frame are left.
     for (int every = 1; every <= frames; ++every) {
         FrameChoice choice{every, every_nth(frames, worst, every)};
-        if (fixed + each * choice.shown.size() <= most) return choice;
+        if (fixed + each * choice.shown.size() <= max) return choice;
     }
     return {};
 }

@@ -45,7 +45,7 @@ std::string corner_bytes(const std::vector<Triangle>& triangles) {
     return bytes;
 }
 
-/// What a share of the finite values does not exceed; 0 without any.
+/// The value that a fraction `share` of the finite values does not exceed; 0 without any.
 double value_at_share(std::vector<float> values, double share) {
     std::erase_if(values, [](float value) { return !std::isfinite(value); });
     if (values.empty()) return 0.0;

@@ -8,7 +8,7 @@
 // Numbers of a playback in two bytes each, and bytes as text.
 namespace percale::scenes {
 
-/// What is not finite.
+/// The number for a value that is not finite.
 inline constexpr std::uint16_t packed_absent = 65535;
 
 /// value = low + step * number, with whole numbers 0 ... 65534; step 0 where all values are equal.
@@ -24,7 +24,7 @@ std::uint16_t packed(double value, const PackRange& range);
 
 /// RFC 4648, with padding.
 std::string base64(std::string_view bytes);
-/// How many letters that makes of so many bytes.
+/// The number of letters of so many bytes in base64.
 std::size_t base64_size(std::size_t bytes);
 
 }  // namespace percale::scenes

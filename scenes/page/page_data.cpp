@@ -67,8 +67,8 @@ ordered_json steps_json(const StepSeries& steps) {
     ordered_json json = {{"steps", steps.steps}, {"every", steps.every},         {"time", steps.time},
                          {"bad", steps.bad},     {"bad_steps", steps.bad_steps}, {"columns", ordered_json::object()}};
     for (const StepColumn& column : steps.columns) {
-        json["columns"][column.name] = {{"least", column.least}};
-        if (steps.every > 1) json["columns"][column.name]["most"] = column.most;
+        json["columns"][column.name] = {{"least", column.min}};
+        if (steps.every > 1) json["columns"][column.name]["most"] = column.max;
     }
     return json;
 }

@@ -7,7 +7,7 @@
 namespace percale::scenes {
 
 std::string json_for_script(std::string json) {
-    // In JSON a < stands in strings alone.
+    // In JSON a < occurs in strings only.
     std::string safe;
     safe.reserve(json.size());
     for (const char letter : json) {

@@ -50,7 +50,8 @@ void check_records(const PlaybackSource& source) {
     }
 }
 
-/// Those that are left out of the page, too: a folder with holes is not the run it says it is.
+/// Checks the files of all frames, also of those that the page leaves out: an incomplete folder is not the run that it claims to
+/// be.
 void check_files(const PlaybackSource& source) {
     std::error_code error;
     for (const FrameRecord& record : source.records)
@@ -64,7 +65,7 @@ bool has_field(const std::vector<MeshField>& fields, const std::string& start) {
     return std::ranges::any_of(fields, [&](const MeshField& field) { return field.name.starts_with(start); });
 }
 
-/// What a page says of cloth beyond its frames.
+/// Adds the fields of cloth that a page has beyond its frames.
 void add_own_fields(ShownMesh& cloth, const TriangleMesh& first, std::span<const TriangleMesh> obstacles, bool distances) {
     if (!has_field(cloth.fields, "strain")) cloth.fields.push_back({own_strain, edge_change(first, cloth.mesh.vertices)});
     if (distances && !obstacles.empty() && !has_field(cloth.fields, own_distance))
@@ -170,11 +171,11 @@ Playback read_playback(const std::string& folder, std::span<const FrameRecord> r
     check_files(source);
     PlaybackTracks tracks(source, cast);
     playback.choice = choose_frames(static_cast<int>(records.size()), options.worst_frame, tracks.fixed_bytes(),
-                                    tracks.frame_bytes(), options.most_bytes);
+                                    tracks.frame_bytes(), options.max_bytes);
     if (playback.choice.shown.empty())
         throw SceneError(folder + ": the first and the last frame alone take " +
                          megabytes(tracks.fixed_bytes() + 2 * tracks.frame_bytes()) + ", which is more than the " +
-                         megabytes(options.most_bytes) + " that are left for frames");
+                         megabytes(options.max_bytes) + " that are left for frames");
     for (const int shown : playback.choice.shown) tracks.add(records[static_cast<std::size_t>(shown)]);
     playback.meshes = tracks.meshes();
     for (const PlaybackMesh& mesh : playback.meshes)

@@ -16,9 +16,9 @@ struct RunCast {
 };
 
 struct PlaybackOptions {
-    std::size_t most_bytes = 50'000'000;  // of all meshes and frames as text
-    bool distances = true;                // of cloth to obstacles, where the frames do not have them
-    int worst_frame = -1;                 // shown whatever is left out; -1: none
+    std::size_t max_bytes = 50'000'000;  // of all meshes and frames as text
+    bool distances = true;               // of cloth to obstacles, where the frames do not have them
+    int worst_frame = -1;                // shown whatever is left out; -1: none
 };
 
 /// The frames of a run as a page plays them.

@@ -19,7 +19,7 @@ namespace percale::scenes {
 namespace {
 
 /// Points of a diagram: more are closer than the pixels of a screen.
-constexpr int most_step_groups = 2000;
+constexpr int max_step_groups = 2000;
 
 PageParts constant_parts(const std::string& title) {
     const auto text = [](std::string_view part) { return [part](std::ostream& out) { out << part; }; };
@@ -36,27 +36,27 @@ void write_blobs(std::ostream& out, const Playback& playback) {
 }
 
 /// How much of a page of so many megabytes is left for frames.
-std::size_t bytes_for_frames(double most_megabytes, const PageData& without_frames) {
+std::size_t bytes_for_frames(double max_megabytes, const PageData& without_frames) {
     std::size_t taken = page_json(without_frames).size();
     for (const std::string_view part : {page_template(), page_style(), page_script(), three_library(), three_controls()})
         taken += part.size();
-    const auto most = static_cast<std::size_t>(1e6 * most_megabytes);
-    return most > taken ? most - taken : 0;
+    const auto max = static_cast<std::size_t>(1e6 * max_megabytes);
+    return max > taken ? max - taken : 0;
 }
 
 void check_page_options(const PageOptions& options) {
-    if (options.most_megabytes >= least_page_megabytes && options.most_megabytes <= largest_page_megabytes) return;
-    throw SceneError("--most-megabytes " + number_text(options.most_megabytes) + ": must be " +
-                     number_text(least_page_megabytes) + " ... " + number_text(largest_page_megabytes) + " MB");
+    if (options.max_megabytes >= min_page_megabytes && options.max_megabytes <= largest_page_megabytes) return;
+    throw SceneError("--most-megabytes " + number_text(options.max_megabytes) + ": must be " + number_text(min_page_megabytes) +
+                     " ... " + number_text(largest_page_megabytes) + " MB");
 }
 
 PageData read_page_data(const std::string& folder, const PageOptions& options) {
     PageData data;
     data.report = read_report_text(folder);
     data.records = read_frame_records(folder);
-    data.steps = read_step_series(folder, most_step_groups);
+    data.steps = read_step_series(folder, max_step_groups);
     if (data.records.empty()) return data;
-    const PlaybackOptions playback{.most_bytes = bytes_for_frames(options.most_megabytes, data),
+    const PlaybackOptions playback{.max_bytes = bytes_for_frames(options.max_megabytes, data),
                                    .distances = options.distances,
                                    .worst_frame = worst_frame_of_report(data.report, static_cast<int>(data.records.size()))};
     data.playback = read_playback(folder, data.records, cast_of_report(data.report, data.records.front()), playback);

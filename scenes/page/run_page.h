@@ -6,8 +6,8 @@
 namespace percale::scenes {
 
 struct PageOptions {
-    double most_megabytes = 50.0;  // of the file: frames are left out where they would take more
-    bool distances = true;         // PlaybackOptions::distances
+    double max_megabytes = 50.0;  // of the file: frames are left out where they would take more
+    bool distances = true;        // PlaybackOptions::distances
 };
 
 /// What was written.
@@ -16,9 +16,9 @@ struct PageSummary {
     int frames = 0, shown = 0, every = 1;  // of the run, in the page, and every how many
 };
 
-/// The range of PageOptions::most_megabytes: the first holds the page's own scripts, and browsers take no longer texts than the
+/// The range of PageOptions::max_megabytes: the first holds the page's own scripts, and browsers take no longer texts than the
 /// second.
-inline constexpr double least_page_megabytes = 2.0, largest_page_megabytes = 500.0;
+inline constexpr double min_page_megabytes = 2.0, largest_page_megabytes = 500.0;
 
 /// Throws SceneError, beginning with `asked`, where this build has no three.js and so no pages.
 void check_pages(const std::string& asked);

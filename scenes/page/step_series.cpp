@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* shown_columns[] = {"dt", "newton", "linear", "residual", "contacts", "smallest_distance", "energy"};
 
-/// Where the columns stand that are read.
+/// The numbers of the columns that are read.
 struct StepPlaces {
     std::size_t cells = 0, time = 0, status = 0;
     std::vector<std::size_t> shown;
@@ -65,24 +65,24 @@ StepColumn grouped(const StepTableText& table, std::size_t shown, std::size_t ev
     StepColumn column{shown_columns[shown], {}, {}};
     for (std::size_t line = 0; line < table.lines.size(); ++line) {
         if (line % every == 0) {
-            column.least.push_back(none);
-            column.most.push_back(none);
+            column.min.push_back(none);
+            column.max.push_back(none);
         }
         const double value = step_number(table, line, table.places.shown[shown]);
         if (!std::isfinite(value)) continue;
         // fmin and fmax pass over what is not a number.
-        column.least.back() = std::fmin(column.least.back(), value);
-        column.most.back() = std::fmax(column.most.back(), value);
+        column.min.back() = std::fmin(column.min.back(), value);
+        column.max.back() = std::fmax(column.max.back(), value);
     }
     return column;
 }
 
 }  // namespace
 
-StepSeries read_step_series(const std::string& folder, int most_groups) {
+StepSeries read_step_series(const std::string& folder, int max_groups) {
     const StepTableText table = read_step_table(folder + "/steps.csv");
-    const std::size_t steps = table.lines.size(), most = static_cast<std::size_t>(most_groups);
-    const std::size_t every = std::max<std::size_t>(1, (steps + most - 1) / most);
+    const std::size_t steps = table.lines.size(), max = static_cast<std::size_t>(max_groups);
+    const std::size_t every = std::max<std::size_t>(1, (steps + max - 1) / max);
     StepSeries series;
     series.steps = static_cast<int>(steps);
     series.every = static_cast<int>(every);
@@ -91,7 +91,7 @@ StepSeries read_step_series(const std::string& folder, int most_groups) {
         if (line % every == every - 1 || line + 1 == steps) series.time.push_back(time);
         if (table.lines[line][table.places.status] == "ok") continue;
         ++series.bad_steps;
-        if (series.bad.size() < most) series.bad.push_back(time);
+        if (series.bad.size() < max) series.bad.push_back(time);
     }
     for (std::size_t shown = 0; shown < std::size(shown_columns); ++shown) series.columns.push_back(grouped(table, shown, every));
     return series;

@@ -9,7 +9,7 @@ namespace percale::scenes {
 /// none.
 struct StepColumn {
     std::string name;
-    std::vector<double> least, most;
+    std::vector<double> min, max;
 };
 
 /// The steps of a run in groups of `every`, of which the last may be shorter.
@@ -21,8 +21,8 @@ struct StepSeries {
     int bad_steps = 0;                // how many there are
 };
 
-/// Reads FOLDER/steps.csv into at most `most_groups` groups. Throws SceneError with file and line where it is missing or no table
+/// Reads FOLDER/steps.csv into at most `max_groups` groups. Throws SceneError with file and line where it is missing or no table
 /// of steps.
-StepSeries read_step_series(const std::string& folder, int most_groups);
+StepSeries read_step_series(const std::string& folder, int max_groups);
 
 }  // namespace percale::scenes

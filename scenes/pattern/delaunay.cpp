@@ -10,7 +10,7 @@
 namespace percale::scenes {
 namespace {
 
-/// Relative to the terms of the determinant: points nearer to a common circle are on it, so that flips end.
+/// A bound relative to the terms of the determinant: points that are nearer to a common circle lie on it, so that flips end.
 constexpr long double circle_rounding = 1e-13L;
 
 /// Whether d lies inside the circle through a, b, c, which turn left.
@@ -113,7 +113,7 @@ int Delaunay::walk_to(const Point2& point) const {
     return -1;
 }
 
-/// The cell around a point; -1: none. A walk may run into the outline, then all are looked at.
+/// The cell around a point; -1: none. If the walk runs into the outline, all cells are looked at.
 int Delaunay::cell_at(const Point2& point) const {
     const int found = walk_to(point);
     if (found >= 0) return found;
@@ -134,7 +134,7 @@ bool Delaunay::insert(const Point2& point) {
     // On a side, or so near it that the part there had no area.
     for (int side = 0; side < 3; ++side) {
         const Point2 &from = points_[whole.corner[side]], &to = points_[whole.corner[(side + 1) % 3]];
-        if (turn_left(from, to, point) <= least_turn_of(points_[a], points_[b], points_[c])) return false;
+        if (turn_left(from, to, point) <= min_turn_of(points_[a], points_[b], points_[c])) return false;
     }
     const int added = static_cast<int>(points_.size()), second = static_cast<int>(cells_.size()), third = second + 1;
     points_.push_back(point);
@@ -157,7 +157,7 @@ std::vector<std::vector<int>> Delaunay::cells_around() const {
     return around;
 }
 
-/// -1 where a cell is turned over.
+/// The smallest angle of the cells; -1 where one is turned over.
 double Delaunay::smallest_angle_around(std::span<const int> cells) const {
     double smallest = std::numbers::pi;
     for (const int cell : cells) {

@@ -11,10 +11,10 @@
 namespace percale::scenes {
 namespace {
 
-/// Of an edge length: corners nearer to each other than this are sewn together.
+/// In edge lengths: corners nearer to each other than this are sewn together.
 constexpr double one_corner = 1.0 / 3.0;
 
-/// Of the length of a side.
+/// Relative to the length of a side.
 constexpr double station_rounding = 1e-9;
 
 int pieces(double length, double edge_length) { return std::max(1, static_cast<int>(std::lround(length / edge_length))); }
@@ -30,14 +30,14 @@ public:
     }
 
     double length() const { return ends_.back(); }
-    /// Where its edges end, as shares of its length, the last one left out.
+    /// The ends of its edges, without the last one, as fractions of its length.
     std::vector<double> corners() const {
         std::vector<double> shares;
         for (std::size_t k = 1; k + 1 < ends_.size(); ++k) shares.push_back(ends_[k] / length());
         return shares;
     }
     const std::vector<EdgeUse>& uses() const { return uses_; }
-    /// The edge on which the side is at a share, and the share of that edge, as the edge itself runs.
+    /// The edge at a fraction of the side, and the fraction of that edge, in the edge's own direction.
     std::pair<std::size_t, double> edge_at(double share) const {
         const double place = share * length();
         std::size_t k = 0;
@@ -51,7 +51,7 @@ private:
     std::vector<double> ends_;  // m
 };
 
-/// Shares of both sides at which a piece of a seam ends.
+/// Fractions of both sides at which a piece of a seam ends.
 using Break = std::array<double, 2>;
 
 std::vector<Break> breaks_of(const PatternSeam& seam, const SeamSide& first, const SeamSide& second, double edge_length) {

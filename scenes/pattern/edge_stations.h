@@ -9,14 +9,14 @@ namespace percale::scenes {
 
 /// Where the edges of a pattern are divided.
 struct EdgeStations {
-    /// Shares of the arc length, ascending from 0 to 1: of edge e of panel p at [p][e].
+    /// Fractions of the arc length, ascending from 0 to 1; [p][e] holds those of edge e of panel p.
     std::vector<std::vector<std::vector<double>>> shares;
 
     /// A station of an edge, by its number there.
     struct Place {
         int panel = 0, edge = 0, station = 0;
     };
-    /// Of each seam: the stations that are sewn together, from its beginning to its end.
+    /// For each seam the stations that are sewn together, from its beginning to its end.
     std::vector<std::vector<std::array<Place, 2>>> sewn;
 };
 

@@ -10,8 +10,8 @@
 namespace percale::scenes {
 namespace {
 
-/// Of an edge length: how far lattice points keep from the outline. Nearer ones make flat triangles there, farther ones long
-/// ones.
+/// In edge lengths: the distance that lattice points keep from the outline. Nearer ones make flat triangles there, farther ones
+/// long ones.
 constexpr double outline_distance = 0.65;
 constexpr int smoothing_rounds = 12;
 

@@ -15,11 +15,11 @@ struct PanelMesh {
 
 /// Meshes the inside of a simple polygon, counter-clockwise, whose points are about `edge_length` apart, m. Each of its sides is
 /// an edge of the mesh, and no point is added to it. Inside, points of an equilateral lattice are joined by the constrained
-/// Delaunay triangulation and smoothed. Throws SceneError where the polygon crosses itself or has no area. The same for the same
-/// polygon.
+/// Delaunay triangulation and smoothed. Throws SceneError where the polygon crosses itself or has no area. The same polygon gives
+/// the same mesh.
 PanelMesh mesh_panel(std::span<const Point2> outline, double edge_length);
 
-/// Of all triangles, rad; 0 without any.
+/// The smallest angle of all triangles, rad; 0 without any.
 double smallest_angle(const PanelMesh& mesh);
 
 }  // namespace percale::scenes

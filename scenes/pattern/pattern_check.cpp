@@ -13,9 +13,9 @@ namespace percale::scenes {
 namespace {
 
 constexpr double largest_panel = 5.0, smallest_panel = 0.01;  // m
-/// Of the shorter side of a seam.
-constexpr double most_ease = 0.25;
-/// m: corners of two panels that lie nearer are in one place.
+/// Maximum excess of one side of a seam over the shorter one, relative to that.
+constexpr double max_ease = 0.25;
+/// m. Corners of two panels that lie nearer are in one place.
 constexpr double same_place = 1e-3;
 /// Pieces of each edge, as which outlines are tested for crossings.
 constexpr int tested_pieces = 24;
@@ -116,7 +116,7 @@ double side_length(const Pattern& pattern, const std::vector<EdgeUse>& side) {
 
 void check_seam(const Pattern& pattern, const PatternSeam& seam) {
     const double first = side_length(pattern, seam.sides[0]), second = side_length(pattern, seam.sides[1]);
-    if (seam.gather || std::max(first, second) <= (1.0 + most_ease) * std::min(first, second)) return;
+    if (seam.gather || std::max(first, second) <= (1.0 + max_ease) * std::min(first, second)) return;
     fail_at(seam.place, "seam '" + seam.name + "': its sides are " + short_number(first) + " m and " + short_number(second) +
                             " m long, more than 25 % apart; gather = true sews them all the same");
 }

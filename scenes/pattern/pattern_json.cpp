@@ -146,7 +146,7 @@ private:
         if (json.size() < 2) throw SceneError("it joins two edges");
         PatternSeam seam{.name = "stitch " + std::to_string(number),
                          .sides = {{{read_use(json.at(0))}, {read_use(json.at(1))}}},
-                         .gather = true,  // the format does not tell gathers from mistakes
+                         .gather = true,  // the format does not distinguish gathers from mistakes
                          .place = {.file = file_}};
         const bool right_wrong = json.size() > 2 && json.at(2).is_string() && json.at(2).get<std::string>() == "right_wrong";
         if (!right_wrong) reverse_side(seam.sides[1]);

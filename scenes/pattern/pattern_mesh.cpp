@@ -15,7 +15,7 @@ namespace percale::scenes {
 namespace {
 
 constexpr double shortest_edge = 1e-4, longest_edge = 1.0;  // m
-constexpr double most_pattern_vertices = 2e6;
+constexpr double max_pattern_vertices = 2e6;
 /// m, between the flat panels in uv.
 constexpr double uv_gap = 0.05;
 
@@ -96,7 +96,7 @@ private:
 
     void refuse_size(const Panel& panel, double area) const {
         const double vertices = area / (0.5 * std::sqrt(3.0) * edge_length_ * edge_length_);
-        if (vertices + static_cast<double>(result_.mesh.vertices.size()) <= most_pattern_vertices) return;
+        if (vertices + static_cast<double>(result_.mesh.vertices.size()) <= max_pattern_vertices) return;
         throw SceneError(pattern_.file, "panel '" + panel.name + "': with an edge length of " + short_number(edge_length_) +
                                             " m the mesh would have more than 2 million vertices");
     }

@@ -14,7 +14,7 @@ namespace percale::scenes {
 
 namespace {
 
-// Share of the picture that stays free at each edge.
+// Fraction of the picture that stays free at each edge.
 constexpr double free_margin = 0.06;
 
 const std::vector<std::pair<std::string, CameraAim>>& named_aims() {

@@ -12,13 +12,13 @@ namespace percale::scenes {
 
 namespace {
 
-// Shares of the picture's height: capitals, the strip, and the bar in it.
+// Fractions of the picture's height: capitals, the strip, and the bar in it.
 constexpr double capital_share = 0.0135, strip_share = 0.135, bar_top = 0.26, bar_bottom = 0.76, bar_share = 0.022;
-constexpr double least_capital = 6.0;
-// Of a step: how near numbers stand to each other at least.
+constexpr double min_capital = 6.0;
+// In steps: the minimum distance between two numbers.
 constexpr double nearest_numbers = 0.45;
 
-double bar_capital(int height) { return std::max(least_capital, capital_share * height); }
+double bar_capital(int height) { return std::max(min_capital, capital_share * height); }
 
 /// A multiple of the step without the rounding of the product: 0.3, not 0.30000000000000004.
 std::string multiple_text(double value, double step) {
@@ -32,7 +32,7 @@ std::string multiple_text(double value, double step) {
 }  // namespace
 
 int colour_bar_width(int picture_height) {
-    return static_cast<int>(std::ceil(std::max(strip_share * picture_height, 10.0 * least_capital)));
+    return static_cast<int>(std::ceil(std::max(strip_share * picture_height, 10.0 * min_capital)));
 }
 
 std::vector<BarNumber> bar_numbers(const FieldRange& range) {

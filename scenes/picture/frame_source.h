@@ -27,15 +27,15 @@ public:
     /// Mesh files; closed ones are bodies, unless all are. Names are the files' without folder and ending.
     static FrameSource of_meshes(const std::vector<std::string>& files, const ShownChoice& choice);
 
-    /// At least 1.
+    /// The number of frames, at least 1.
     int count() const { return static_cast<int>(frames_.size()); }
-    /// s, of a frame 0 ... count - 1; they rise.
+    /// The time of a frame 0 ... count - 1, s; times ascend.
     double time(int frame) const { return frames_.at(static_cast<std::size_t>(frame)).time; }
     /// The frame nearest to a time, s, of equals the earlier one.
     int nearest_frame(double time) const;
     /// Throws SceneError for a mesh that cannot be read, a field that its frame lacks (and how to get it).
     ShownFrame load(int frame);
-    /// What of the files is left out, as that they move by themselves.
+    /// What is left out of the files, such as their own motion.
     const std::vector<std::string>& warnings() const { return warnings_; }
     /// For titles: the folder's or the first file's name.
     const std::string& name() const { return name_; }

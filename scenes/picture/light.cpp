@@ -16,11 +16,11 @@ constexpr int lamp_rays = 8, sky_rays = 6;
 constexpr double lamp_radius = 0.11;
 // Brightness: lamp, sky straight above and below, from the viewer, sheen of what is seen at a grazing angle.
 constexpr float lamp_light = 0.88f, sky_above = 0.34f, sky_below = 0.20f, eye_light = 0.07f, sheen_light = 0.05f;
-// Of the sky's light, what reaches the deepest fold.
+// The fraction of the sky's light that reaches the deepest fold.
 constexpr float hidden_light = 0.10f;
-// Above it brightness is bent so that 1 is never passed.
+// Above this value brightness is compressed so that it never exceeds 1.
 constexpr float bright_shoulder = 0.8f;
-// Of the light that a shadow on the ground takes.
+// The fraction of the light that a shadow on the ground takes away.
 constexpr float ground_darkness = 0.75f;
 
 /// The digits of k to base 2 behind the point, in reverse (van der Corput).
@@ -44,7 +44,7 @@ std::vector<Eigen::Vector2d> disc_points(int count) {
     return points;
 }
 
-/// Two directions that stand on a third and on each other; they turn evenly with it but where it points along -z.
+/// Two directions perpendicular to a third one and to each other; they turn evenly with it except where it points along -z.
 std::array<Vec3, 2> across(const Vec3& n) {
     const double sign = n.z() < 0.0 ? -1.0 : 1.0, a = -1.0 / (sign + n.z()), b = n.x() * n.y() * a;
     return {Vec3(1.0 + sign * n.x() * n.x() * a, sign * b, -sign * n.x()), Vec3(b, sign + n.y() * n.y() * a, -n.y())};
@@ -100,7 +100,7 @@ Colour Lights::shade(const Colour& colour, const SurfacePoint& point, const Eige
     const float grazing = (1.0f - facing) * (1.0f - facing) * (1.0f - facing);
     Colour light;
     for (int k = 0; k < 3; ++k) {
-        // What of the sky is hidden shows surfaces of the same colour, which show some sky again: s + (1 - s) c s + ...
+        // Where the sky is hidden there are surfaces of the same colour, which show some sky again: s + (1 - s) c s + ...
         const float sky_seen = shown_sky / (1.0f - colour[k] * (1.0f - shown_sky));
         light[k] = bent(colour[k] * (sky * sky_seen + lamp + eye_light * facing * (0.4f + 0.6f * share.sky)) +
                         sheen_light * grazing * share.sky);

@@ -24,7 +24,7 @@ public:
     /// `sky_reach`: m, what is farther hides no sky.
     Lights(const Camera& camera, double sky_reach);
 
-    /// By one part of the directions, 0 ... parts - 1, or by all_parts.
+    /// Measures the light at a point by one part of the directions, 0 ... parts - 1, or by all_parts.
     LightShare measure(const Surfaces& surfaces, const SurfacePoint& point, int part) const;
     /// The light that a surface of a colour sends to the viewer, who is in direction `to_eye`.
     Colour shade(const Colour& colour, const SurfacePoint& point, const Eigen::Vector3f& to_eye, const LightShare& share) const;

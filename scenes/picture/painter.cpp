@@ -15,13 +15,13 @@ namespace {
 
 // Rays through a pixel at an edge.
 constexpr int edge_rays = 16;
-// Pixels: how far points of one stretch may lie from each other's plane.
+// In pixels: the maximum distance of points on one piece of surface from each other's plane.
 constexpr float alike_pixels = 4.0f;
-// Of the radius of all: how near what hides the sky must be.
+// In radii of all shapes: the maximum distance of a surface that hides the sky.
 constexpr double sky_reach_share = 0.5;
 // Width of edges of triangles, pixels, and how dark they are.
 constexpr float wire_width = 0.9f, wire_darkness = 0.6f;
-// Share of its radius from which on the ground fades out.
+// Fraction of its radius from which on the ground fades out.
 constexpr float ground_fade_start = 0.45f;
 
 /// Light of a pixel, times how much of it is covered.
@@ -94,7 +94,7 @@ void FramePainter::look_at_row(int row) {
     }
 }
 
-/// The mean over pixels of the same stretch of surface, `before` to the left and above, `behind` to the right and below.
+/// The mean over pixels of the same piece of surface, `before` to the left and above, `behind` to the right and below.
 LightShare FramePainter::smoothed(int column, int row, int before, int behind, int* count) const {
     const SurfacePoint& point = points_[number(column, row)];
     LightShare sum{0.0f, 0.0f};
@@ -137,7 +137,7 @@ bool FramePainter::is_edge(int column, int row) const {
     return false;
 }
 
-/// That of the pixel around whose surface is most like the point's; measured where none is.
+/// The light of the neighbouring pixel whose surface is most like the point's; it is measured where none is alike.
 LightShare FramePainter::light_near(const SurfacePoint& point, int column, int row) const {
     float best = -1.0f;
     LightShare share;
@@ -184,7 +184,7 @@ Colour FramePainter::surface_colour(const SurfacePoint& point) const {
         const Triangle& t = shape.mesh.triangles[static_cast<std::size_t>(point.triangle)];
         const auto value = [&](std::size_t k) { return shape.field[static_cast<std::size_t>(t[k])]; };
         const double mixed = (1.0f - point.u - point.v) * value(0) + point.u * value(1) + point.v * value(2);
-        // Without a value, as far from all bodies: grey.
+        // A vertex without a value, such as one far from all bodies, is grey.
         if (std::isfinite(mixed)) return ramp_colour(settings_.range->share(mixed), settings_.range->diverging());
         return Colour::Constant(0.35f);
     }

@@ -15,7 +15,8 @@ enum class Background { studio, white, transparent };
 /// Throws SceneError, with the nearest name, for a word that is none.
 Background background_of(const std::string& word);
 
-/// The light behind everything, at a share 0 ... 1 of the picture's height from its top; of a transparent one white.
+/// The light behind everything, at a fraction `share`, 0 ... 1, of the picture's height from its top; white where it is
+/// transparent.
 Colour background_colour(Background background, double share);
 
 struct PaintSettings {

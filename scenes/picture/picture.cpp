@@ -16,13 +16,13 @@ namespace percale::scenes {
 namespace {
 
 // Pixels.
-constexpr int least_side = 16, largest_side = 8192, most_pixels = 1 << 24, least_cell = 16;
-// Of the diagonal of the box around cloth: how far from it bodies are fitted, too.
+constexpr int min_side = 16, largest_side = 8192, max_pixels = 1 << 24, min_cell = 16;
+// In diagonals of the box around cloth: the distance from it up to which bodies are fitted, too.
 constexpr double near_cloth = 1.5;
-// Of the radius of all that is fitted: how far the ground shows shadows.
+// In radii of all that is fitted: how far the ground shows shadows.
 constexpr double ground_radius_share = 3.2;
-// Of a cell's height: its label.
-constexpr double label_share = 0.07, least_label = 14.0, label_capital = 0.5;
+// The strip for a cell's label: fraction of the cell's height, minimum in pixels; and its capitals, as a fraction of the strip.
+constexpr double label_share = 0.07, min_label = 14.0, label_capital = 0.5;
 
 /// What all drawings of one source have in common.
 struct Scenery {
@@ -59,11 +59,11 @@ SheetLayout layout_of(const std::vector<PictureCell>& cells, const CellGrid& gri
     layout.gap = grid.columns * grid.rows > 1 ? std::max(1, style.width / 600) : 0;
     const int bar = style.field != nullptr ? colour_bar_width(style.height) : 0;
     const int whole = (style.height - (grid.rows - 1) * layout.gap) / grid.rows;
-    layout.strip = has_labels ? static_cast<int>(std::max(least_label, label_share * whole)) : 0;
+    layout.strip = has_labels ? static_cast<int>(std::max(min_label, label_share * whole)) : 0;
     layout.cell_width = (style.width - bar - (grid.columns - 1) * layout.gap) / grid.columns;
     layout.cell_height = whole - layout.strip;
     layout.drawing_width = grid.columns == 1 ? style.width : layout.cell_width;
-    if (layout.cell_width < least_cell || layout.cell_height < least_cell)
+    if (layout.cell_width < min_cell || layout.cell_height < min_cell)
         throw SceneError("a picture of " + std::to_string(style.width) + "x" + std::to_string(style.height) +
                          " pixels has no room for " + std::to_string(grid.columns) + "x" + std::to_string(grid.rows) +
                          " drawings" + (bar > 0 ? " and a bar of colours" : ""));
@@ -121,11 +121,11 @@ struct WrittenFiles {
 }  // namespace
 
 void check_picture_size(int width, int height) {
-    const bool fits = width >= least_side && height >= least_side && width <= largest_side && height <= largest_side;
-    if (!fits || width > most_pixels / height)
+    const bool fits = width >= min_side && height >= min_side && width <= largest_side && height <= largest_side;
+    if (!fits || width > max_pixels / height)
         throw SceneError("a picture of " + std::to_string(width) + "x" + std::to_string(height) +
-                         " pixels: each side must be in " + std::to_string(least_side) + " ... " + std::to_string(largest_side) +
-                         ", and all at most " + std::to_string(most_pixels));
+                         " pixels: each side must be in " + std::to_string(min_side) + " ... " + std::to_string(largest_side) +
+                         ", and all at most " + std::to_string(max_pixels));
 }
 
 CellGrid grid_for(int cells, int width, int height) {

@@ -28,7 +28,7 @@ struct PictureCell {
     std::string label = {};
 };
 
-/// Side by side, row by row from the top.
+/// Cells lie side by side, row by row from the top.
 struct CellGrid {
     int columns = 1, rows = 1;
 };
@@ -42,7 +42,7 @@ CellGrid grid_for(int cells, int width, int height);
 /// The points that the camera is fitted to: all cloth, and bodies as far as they are near it; all bodies where there is no cloth.
 std::vector<Vec3> fitted_points(const ShownFrame& frame);
 
-/// What is told while pictures are made; each may be empty.
+/// Is called while pictures are made; each may be empty.
 struct PictureNews {
     std::function<void(const FieldRange&)> range = {};  // of the field, before the first is drawn
     std::function<void(int)> done = {};                 // how many pictures of a movie are written

@@ -13,11 +13,11 @@ namespace percale::scenes {
 
 namespace {
 
-// Numbers at a bar, about.
+// The approximate count of numbers at a bar.
 constexpr double wanted_numbers = 5.0;
-// Share of the values that the colours leave to their last one.
+// Fraction of the values above the range, all of which have the last colour.
 constexpr double share_beyond = 0.005;
-// Of a step: a bound that is a round number but for rounding stays.
+// In steps: a bound that is a round number up to rounding stays.
 constexpr double round_slack = 1e-9;
 
 const std::vector<PictureField>& known_fields() {
@@ -31,10 +31,10 @@ const std::vector<PictureField>& known_fields() {
 }
 
 /// 1, 2 or 5 times a power of ten, not below `least`.
-double round_step(double least) {
-    const double power = std::pow(10.0, std::floor(std::log10(least)));
+double round_step(double min) {
+    const double power = std::pow(10.0, std::floor(std::log10(min)));
     for (const double digit : {1.0, 2.0, 5.0})
-        if (digit * power >= least * (1.0 - round_slack)) return digit * power;
+        if (digit * power >= min * (1.0 - round_slack)) return digit * power;
     return 10.0 * power;
 }
 

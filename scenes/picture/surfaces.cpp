@@ -9,9 +9,9 @@ namespace {
 
 // Cosine of the angle, 60 degrees, from which on an edge is sharp.
 constexpr float crease_cosine = 0.5f;
-// Cosine of the angle between normals of points in one stretch.
+// Cosine of the largest angle between normals of points on one piece of surface.
 constexpr float alike_cosine = 0.85f;
-// Of the radius of all: how far rays to lights start off a surface. Larger: light leaks between cloth and body.
+// In radii of all shapes: how far off a surface rays to lights start. Larger: light leaks between cloth and body.
 constexpr double lift_share = 2e-4;
 
 Eigen::Vector3f area_normal(const TriangleMesh& mesh, const Triangle& t) {

@@ -14,7 +14,7 @@ namespace percale::scenes {
 /// degrees of this one. Smooth where the mesh is, with the edges of boxes. Zero for a triangle without area.
 std::vector<std::array<Eigen::Vector3f, 3>> corner_normals(const TriangleMesh& mesh);
 
-/// Where the lowest of everything stands, and how far it shows shadows.
+/// The ground below the lowest vertex, and how far it shows shadows.
 struct Ground {
     double height = 0.0;  // m
     Vec3 middle = Vec3::Zero();
@@ -37,8 +37,8 @@ struct SurfacePoint {
     bool is_shape() const { return shape >= 0; }
 };
 
-/// Whether two points belong to one stretch of surface, so that light changes little between them. `reach`: m, how far one may
-/// lie from the other's plane.
+/// Whether two points belong to one piece of surface, so that light changes little between them. `reach`: m, how far one may lie
+/// from the other's plane.
 bool alike(const SurfacePoint& a, const SurfacePoint& b, float reach);
 
 /// The shapes of a frame and the ground below, for rays. The shapes must stay where they are.
@@ -53,7 +53,7 @@ public:
     const RayTree& tree() const { return tree_; }
     std::span<const ShownShape> shapes() const { return shapes_; }
     const std::optional<Ground>& ground() const { return ground_; }
-    /// m, half the diagonal of the box around all.
+    /// Half the diagonal of the box around all shapes, m.
     double radius() const { return radius_; }
 
 private:

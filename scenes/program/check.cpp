@@ -207,7 +207,7 @@ private:
 };
 
 void check_options(const CheckOptions& options) {
-    scene_overrides(options.common);  // a --set that is none is told once, not for each scene
+    scene_overrides(options.common);  // a wrong --set is reported once, not for each scene
     if (!options.common.frames.empty() && options.common.frames != "none")
         throw SceneError("--frames " + options.common.frames + ": check writes no frames; percale run does");
     if (!options.junit.empty()) const WholeFile probe(options.junit);  // found before the work, not after it

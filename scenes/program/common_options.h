@@ -22,9 +22,9 @@ struct CommonOptions {
     bool certify_steps = false;
 };
 
-/// --set and --no-skip: what changes the scene.
+/// Adds --set and --no-skip, which change the scene.
 void add_scene_options(CLI::App& command, CommonOptions& options);
-/// These and all others.
+/// Adds these and all other common options.
 void add_common_options(CLI::App& command, CommonOptions& options);
 
 /// What the scene expects, and with --certify-steps that every step is clear.
@@ -36,7 +36,7 @@ std::vector<scenes::Override> scene_overrides(const CommonOptions& options);
 /// The scene of a file with what these options and then others override.
 scenes::SceneSource scene_source(const std::string& file, const CommonOptions& options);
 
-/// Has values judged as if each were given for a key of the scene file. Throws SceneError naming the option.
+/// Checks values as if each were given for a key of the scene file. Throws SceneError naming the option.
 void check_as_key(const scenes::SceneSource& source, const char* key, const char* option, const std::vector<std::string>& values);
 void check_as_key(const scenes::SceneSource& source, const char* key, const char* option, const std::vector<double>& values);
 

@@ -41,7 +41,7 @@ CompareSettings settings_of(const CompareOptions& options) {
             .reference_error = options.reference_error};
 }
 
-/// Has every word and number judged as the key of the scene file that it stands for.
+/// Checks every word and number as the key of the scene file that it stands for.
 void check_settings(const CompareSettings& settings, const SceneSource& source) {
     check_once("--schemes", settings.schemes);
     check_as_key(source, "step.scheme", "--schemes", settings.schemes);
@@ -69,7 +69,7 @@ Comparison compared(const CompareOptions& options, const CompareSettings& settin
 
 int compare_into(const std::string& folder, const CompareOptions& options, const CompareSettings& settings,
                  const SceneSource& source) {
-    TableFiles{folder, "compare"};  // that they cannot be written is told before anything is run
+    TableFiles{folder, "compare"};  // that they cannot be written is reported before anything is run
     const StopSignals signals;
     try {
         // Nothing is there yet that a kill would leave half made.
@@ -93,7 +93,7 @@ int compare(const CompareOptions& options) {
     const SceneSource source = scene_source(options.scene, options.common);
     check_settings(settings, source);
     demand_duration(source({}));
-    build_scene(source({}));  // what is wrong with the scene itself is told before anything is written
+    build_scene(source({}));  // what is wrong with the scene itself is reported before anything is written
     return compare_into(options.folder.empty() ? default_folder(options.scene) : options.folder, options, settings, source);
 }
 

@@ -33,9 +33,9 @@ int examine(const DoctorOptions& options) {
     const DoctorSettings settings = settings_of(options);
     std::vector<Diagnosis> diagnoses;
     std::string text;
-    const auto look_at = [&](const std::string& file, std::string (*told)(const Diagnosis&)) {
+    const auto look_at = [&](const std::string& file, std::string (*reported)(const Diagnosis&)) {
         diagnoses.push_back(diagnose(file, settings));
-        text += told(diagnoses.back());
+        text += reported(diagnoses.back());
     };
     for (const std::string& place : options.files) {
         std::error_code status;

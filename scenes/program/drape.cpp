@@ -23,7 +23,7 @@ namespace {
 
 using namespace percale::scenes;
 
-/// What the command line says besides.
+/// What else the command line says.
 struct DrapeCommand {
     DrapeOptions drape;
     bool until_rest = true;  // there is nothing else
@@ -46,15 +46,15 @@ std::size_t print_start(const DrapeOptions& options, const DrapeScene& made, con
     for (const std::string& note : made.notes) std::printf("%s\n", note.c_str());
     for (const std::string& text : built.warnings) {
         const std::string warning = "warning: " + text;
-        const bool told = std::ranges::find(made.notes, warning) != made.notes.end();  // swapped meshes
-        if (!told) std::printf("%s\n", warning.c_str());
+        const bool reported = std::ranges::find(made.notes, warning) != made.notes.end();  // swapped meshes
+        if (!reported) std::printf("%s\n", warning.c_str());
     }
     const std::size_t moves = print_start_moves(built.simulation);
     std::fflush(stdout);
     return moves;
 }
 
-/// Sewn within options.sewing_time; nothing where it could not be and is to be tried `again`.
+/// Drapes with options.sewing_time; nothing where the garment could not be sewn in it and is to be tried `again`.
 std::optional<int> drape_once(const DrapeCommand& command, const StopSignals& signals, bool again) {
     const DrapeOptions& options = command.drape;
     const DrapeScene made = signals.prepare([&] { return drape_scene(options); });

@@ -104,7 +104,7 @@ ShownChoice choice_of(const PictureOptions& options, const PictureStyle& style) 
     return choice;
 }
 
-/// One for each folder, or one for all meshes.
+/// A source for each folder, or one for all meshes.
 std::vector<FrameSource> sources_of(const std::vector<std::string>& paths, const ShownChoice& choice) {
     const auto is_folder = [](const std::string& path) { return std::filesystem::is_directory(path); };
     std::vector<FrameSource> sources;
@@ -141,7 +141,7 @@ int single_frame(const PictureOptions& options, const FrameSource& source) {
     return source.nearest_frame(time);
 }
 
-/// Those of --frames; `count` spread evenly from the first to the last; all where count is 0.
+/// The frames of --frames; without, `count` frames spread evenly from the first to the last, all where count is 0.
 std::vector<int> several_frames(const PictureOptions& options, const FrameSource& source, int count) {
     std::vector<int> frames;
     if (!options.frames.empty()) {

@@ -63,7 +63,7 @@ void ProgressBar::show(double done) {
 
 void ProgressBar::show_line(double done, std::chrono::steady_clock::time_point now) {
     const int tenths = total_ > 0.0 ? static_cast<int>(10.0 * done / total_) : 0;
-    if (tenths <= tenths_ || tenths > 9 || seconds_between(last_, now) < output_.least_seconds) return;
+    if (tenths <= tenths_ || tenths > 9 || seconds_between(last_, now) < output_.min_seconds) return;
     last_ = now;
     tenths_ = tenths;
     std::fprintf(output_.file, "%s\n", progress_text(done, total_, seconds_between(start_, now), unit_).c_str());

@@ -16,10 +16,10 @@ struct ProgressUnit {
 /// left open.
 std::string progress_text(double done, double total, double elapsed, ProgressUnit unit = {});
 
-/// Where progress is shown, and how long a line that stays stands at least before the next, s.
+/// Where progress is shown, and the minimum time between two lines that stay, s.
 struct ProgressOutput {
     std::FILE* file = stderr;
-    double least_seconds = 5.0;
+    double min_seconds = 5.0;
 };
 
 /// A bar on the last line of a terminal; elsewhere, as in a log, a line that stays for a tenth of the whole.
@@ -39,7 +39,7 @@ private:
 
     bool wanted_, terminal_, drawn_ = false;
     double total_;
-    int tenths_ = 0;  // that lines have told of
+    int tenths_ = 0;  // that lines have reported
     ProgressUnit unit_;
     ProgressOutput output_;
     std::chrono::steady_clock::time_point start_, last_;

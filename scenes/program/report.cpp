@@ -44,7 +44,7 @@ void add_report_command(CLI::App& program, Action& action) {
     command->add_option("DIR", options->folder, "Folder of a run")->required();
     command->add_option("-o", options->file, "The page (default: DIR/report.html)")->type_name("FILE");
     command
-        ->add_option("--most-megabytes", options->page.most_megabytes,
+        ->add_option("--most-megabytes", options->page.max_megabytes,
                      "Size of the page at most; frames are left out evenly to keep it (default 50)")
         ->type_name("MB");
     command->add_flag("--no-distance", options->no_distance, "Do not measure how far cloth is from obstacles");

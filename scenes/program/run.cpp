@@ -55,7 +55,7 @@ std::string folder_of(const std::string& file) {
     return folder.empty() ? "." : folder;
 }
 
-/// Returns how many moves at the start it told of.
+/// Prints what is known before the first step; returns how many moves at the start it reports.
 std::size_t print_start(const RunOptions& options, const BuiltScene& built) {
     std::printf("%s: %s into %s", options.scene.c_str(), steps_text(built.scene).c_str(), options.folder.c_str());
     if (!options.resume.empty()) std::printf(", resumed at %.6g s", built.simulation.time());
@@ -66,7 +66,7 @@ std::size_t print_start(const RunOptions& options, const BuiltScene& built) {
     return moves;
 }
 
-/// As soon as it is known: cloth that tears makes steps dear, and a run may take long to its end.
+/// Warns as soon as cloth would have torn: such cloth makes steps expensive, and a run may take long to its end.
 void print_torn(const BuiltScene& built, const StepReport& report) {
     std::printf("warning: at %.3g s %s\n", report.time, strain_warnings(built, report.largest_strain).front().c_str());
     std::fflush(stdout);
@@ -79,7 +79,7 @@ std::string leave_picture(const RunOptions& options, const TriangleMesh& triangl
     try {
         write_obj(folder + "_start.obj", triangles.vertices, triangles.triangles);
     } catch (const SceneError&) {
-        return "";  // the start itself is what has to be told
+        return "";  // the start itself is what has to be reported
     }
     return folder + "_start.obj";
 }
@@ -115,10 +115,10 @@ void print_summary(const RunOptions& options, const BuiltScene& built, const Run
     if (finished && !built.obstacles.empty() && std::isinf(m.smallest_distance) && !maybe_met)
         std::printf("warning: no cloth ever met an obstacle; is everything in its place, and in one unit?\n");
     const std::span<const Pinch> pinches = result.totals.pinches;
-    for (const Pinch& pinch : pinches.first(std::min(pinches.size(), most_pinches_told)))
+    for (const Pinch& pinch : pinches.first(std::min(pinches.size(), max_pinches_reported)))
         std::printf("warning: %s\n", pinch_text(pinch, built.scene).c_str());
-    if (pinches.size() > most_pinches_told)
-        std::printf("warning: and so %zu times more; report.json lists them\n", pinches.size() - most_pinches_told);
+    if (pinches.size() > max_pinches_reported)
+        std::printf("warning: and so %zu times more; report.json lists them\n", pinches.size() - max_pinches_reported);
     for (const std::string& text : end_warnings(built, result)) std::printf("warning: %s\n", text.c_str());
     for (const ExpectationResult& expectation : expectations) std::printf("  %s\n", expectation.text.c_str());
 }
@@ -216,7 +216,7 @@ void add_run_command(CLI::App& program, Action& action) {
     add_common_options(*command, options->common);
     command
         ->add_flag("--verbose", options->verbose,
-                   "Print a line for every step: its figures, and why spans of it were redone shorter")
+                   "Print a line for every step: its figures, and why substeps of it were solved again")
         ->excludes("--quiet");
     command->add_flag("--report", options->report, "Write the run as an HTML page, too: DIR/report.html (see percale report)");
     command

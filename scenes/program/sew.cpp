@@ -28,7 +28,7 @@ struct SewOptions {
 
 double degrees(double angle) { return angle * 57.29577951308232; }
 
-/// Smallest of all panels, rad, in the plane of the pattern.
+/// The smallest angle of all panels, rad, in the plane of the pattern.
 double smallest_angle_of(const PatternMesh& garment) {
     return smallest_angle(PanelMesh{.vertices = garment.uv, .triangles = garment.mesh.triangles});
 }

@@ -18,7 +18,7 @@ namespace {
 /// Hosts may send both signals at once, or one to each process and to all: only what comes later is meant as a second one.
 constexpr std::chrono::milliseconds second_signal_after{500};
 
-/// A step that takes longer is not waited for; what it is at ends, and a report is written, within the rest of a second.
+/// A step that takes longer is cancelled; it ends, and a report is written, within the rest of a second.
 constexpr std::chrono::milliseconds overdue_after{300};
 
 [[noreturn]] void end_now() { std::_Exit(stopped_by_signal); }

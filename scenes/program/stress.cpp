@@ -23,7 +23,7 @@ namespace {
 
 using namespace percale::scenes;
 
-constexpr int told_failures = 10;
+constexpr int reported_failures = 10;
 
 struct StressOptions {
     CommonOptions common;
@@ -107,7 +107,7 @@ void print(const StressOptions& options, const StressRun& run, const std::string
     std::printf("%zu cell%s of at most %d steps", run.rows.size(), run.rows.size() == 1 ? "" : "s", run.steps);
     std::printf(run.of_scene ? "\n" : ", of explicit schemes %d\n", explicit_factor * run.steps);
     std::fputs(stress_summary(run).c_str(), stdout);
-    std::fputs(stress_failures(run, told_failures).c_str(), stdout);
+    std::fputs(stress_failures(run, reported_failures).c_str(), stdout);
     if (run.failures() > 0 && options.scene.empty())
         std::printf("failures: %d; `percale stress --cell N` repeats cell N\n", run.failures());
     std::printf("%s/stress.csv, %s/stress.svg\n", folder.c_str(), folder.c_str());
@@ -121,10 +121,10 @@ int stress(const StressOptions& options) {
     } else {
         check_as_key(source, "step.scheme", "--schemes", options.schemes);
         check_as_key(source, "step.time_step", "--steps", read_numbers("--steps", options.time_steps));
-        build_scene(source({}));  // what is wrong with the scene itself is told before anything is written
+        build_scene(source({}));  // what is wrong with the scene itself is reported before anything is written
     }
     const std::string name = folder_name(options);
-    TableFiles{name, "stress"};  // that they cannot be written is told before anything is run
+    TableFiles{name, "stress"};  // that they cannot be written is reported before anything is run
     const StopSignals signals;
     try {
         const StressRun run = signals.prepare([&] { return made_run(options, source, signals); });

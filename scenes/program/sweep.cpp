@@ -28,7 +28,7 @@ namespace {
 
 using namespace percale::scenes;
 
-constexpr std::size_t told_runs = 10;
+constexpr std::size_t reported_runs = 10;
 
 struct SweepOptions {
     std::string study, folder, range;
@@ -110,27 +110,27 @@ int submit(const SweepOptions& options, const OpenStudy& open) {
 void print_failures(const OpenStudy& open, const std::vector<std::size_t>& failed) {
     if (failed.empty()) return;
     std::string text = counted(static_cast<long>(failed.size()), "run") + " came to no end; the same command does them again:\n";
-    for (std::size_t i = 0; i < std::min(failed.size(), told_runs); ++i)
+    for (std::size_t i = 0; i < std::min(failed.size(), reported_runs); ++i)
         text += "  " + open.folder.folder_of(failed[i]) + ": " + open.folder.complaint_of(failed[i]) + "\n";
-    if (failed.size() > told_runs) text += "  and " + std::to_string(failed.size() - told_runs) + " more\n";
+    if (failed.size() > reported_runs) text += "  and " + std::to_string(failed.size() - reported_runs) + " more\n";
     std::fprintf(stderr, "percale: %s", text.c_str());
 }
 
-/// How many of these runs were; tells of them.
+/// The number of these runs that crossed or were unsolved; prints them.
 std::size_t crossed_or_unsolved(const OpenStudy& open, std::span<const std::size_t> runs) {
     std::size_t found = 0;
     for (const std::size_t run : runs) {
         const std::string folder = open.folder.folder_of(run);
         const std::optional<EndedRun> ended = ended_run(folder);
         if (!ended || (ended->status != "crossed" && ended->status != "unsolved")) continue;
-        if (++found <= told_runs)
+        if (++found <= reported_runs)
             std::fprintf(stderr, "percale: %s: %s: %s\n", folder.c_str(), ended->status.c_str(), ended->reason.c_str());
     }
-    if (found > told_runs) std::fprintf(stderr, "percale: and %zu more runs crossed or unsolved\n", found - told_runs);
+    if (found > reported_runs) std::fprintf(stderr, "percale: and %zu more runs crossed or unsolved\n", found - reported_runs);
     return found;
 }
 
-/// Writes what there is; the exit code.
+/// Writes the tables of the runs that are done; returns the exit code.
 int gather(const SweepOptions& options, const OpenStudy& open) {
     const StudyTables tables = study_tables(open.study, open.folder);
     write_whole_file(open.folder.file("study.csv"), tables.csv);

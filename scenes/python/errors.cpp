@@ -9,7 +9,7 @@ namespace {
 // Owned by the module, which is never unloaded.
 PyObject *scene_error_type = nullptr, *start_error_type = nullptr;
 
-/// An instance of a type with attributes, as the error that the call ends with.
+/// Sets an instance of a type, with attributes, as the error with which the call ends.
 void raise(PyObject* type, const SceneError& error, py::dict attributes) {
     scenes::SourcePlace place;
     if (const auto* placed = dynamic_cast<const scenes::SceneFileError*>(&error)) place = placed->place();

@@ -15,13 +15,13 @@ std::atomic<bool> is_ending = false;
 std::thread::id ending_thread;        // written before is_ending
 std::atomic<int> threads_at_door{0};  // that will take the lock without asking again
 
-// Of the handler of SIGINT.
+// The state of the handler of SIGINT.
 std::atomic<std::atomic<bool>*> watched = nullptr;
 std::atomic<bool> has_cancelled = false;
 std::atomic<int> handlers_at_work = 0;
 std::atomic<void (*)(int)> handler_of_python = nullptr;
 
-void cancel_and_tell_python(int signal) {
+void cancel_and_report_to_python(int signal) {
     ++handlers_at_work;
     if (std::atomic<bool>* cancel = watched; cancel != nullptr) {
         has_cancelled = true;
@@ -75,7 +75,7 @@ InterruptWatch::InterruptWatch(std::atomic<bool>& cancel)
         const bool plain = (python_.sa_flags & SA_SIGINFO) == 0 && python_.sa_handler != SIG_DFL && python_.sa_handler != SIG_IGN;
         handler_of_python = python_.sa_handler;
         struct sigaction both = python_;
-        both.sa_handler = &cancel_and_tell_python;
+        both.sa_handler = &cancel_and_report_to_python;
         installed_ = watches_ = plain && sigaction(SIGINT, &both, nullptr) == 0;
     }
     if (watches_) watched = &cancel_;
@@ -84,7 +84,7 @@ InterruptWatch::InterruptWatch(std::atomic<bool>& cancel)
 InterruptWatch::~InterruptWatch() {
     struct sigaction now = {};
     // Python's code may have set another handler meanwhile.
-    if (installed_ && sigaction(SIGINT, nullptr, &now) == 0 && now.sa_handler == &cancel_and_tell_python)
+    if (installed_ && sigaction(SIGINT, nullptr, &now) == 0 && now.sa_handler == &cancel_and_report_to_python)
         sigaction(SIGINT, &python_, nullptr);
     if (!watches_) return;
     watched = around_;

@@ -33,11 +33,11 @@ private:
     struct Asked {
         Asked();
     };
-    Asked asked_;  // before the lock
+    Asked query_boxes_;  // before the lock
     pybind11::gil_scoped_acquire gil_;
 };
 
-/// Ctrl-C is told to Python at the next line of its own code: not before a call ends that has let the GIL go. While one of these
+/// Python hears of Ctrl-C at the next line of its own code: not before a call ends that has released the GIL. While one of these
 /// lives the signal sets `cancel`, too. Only where it would raise KeyboardInterrupt: on the main thread, with Python's own
 /// handler.
 class InterruptWatch {
@@ -81,7 +81,7 @@ auto interruptible(std::atomic<bool>& cancel, Work work) {
     }
 }
 
-/// Has the interpreter say when it is about to end.
+/// Makes the interpreter announce that it is about to end.
 void watch_exit();
 
 }  // namespace percale::python

@@ -24,13 +24,13 @@ void bind_parts(py::module_& module) {
         .def_readonly("imbalance", &StepEnergy::imbalance)
         .def_property_readonly("total", &StepEnergy::total, "kinetic + gravity + elastic + contact.")
         .def_property_readonly("dissipated", &StepEnergy::dissipated, "The sum of the four losses.");
-    py::class_<DroppedSpans>(module, "DroppedSpans",
-                             "How many spans of a step were solved again in shorter ones, by their trouble.")
-        .def_readonly("not_converged", &DroppedSpans::not_converged)
-        .def_readonly("blocked", &DroppedSpans::blocked)
-        .def_readonly("not_finite", &DroppedSpans::not_finite)
-        .def_readonly("inexact", &DroppedSpans::inexact)
-        .def_property_readonly("total", &DroppedSpans::total);
+    py::class_<DroppedSubsteps>(module, "DroppedSubsteps",
+                                "How many substeps of a step were solved again in shorter ones, by their outcome.")
+        .def_readonly("not_converged", &DroppedSubsteps::not_converged)
+        .def_readonly("blocked", &DroppedSubsteps::blocked)
+        .def_readonly("not_finite", &DroppedSubsteps::not_finite)
+        .def_readonly("inexact", &DroppedSubsteps::inexact)
+        .def_property_readonly("total", &DroppedSubsteps::total);
     py::class_<StageTimes>(module, "StageTimes", "CPU seconds of the calling thread, by stage of a step.")
         .def_readonly("refresh", &StageTimes::refresh)
         .def_readonly("evaluate", &StageTimes::evaluate)
@@ -61,14 +61,14 @@ void bind_counts(py::class_<StepReport>& report) {
         .def_property_readonly(
             "linear_solver", [](const StepReport& self) { return solver_word(self.linear_solver); },
             "none, cg, multigrid or direct: in use at the end.")
-        .def_readonly("halvings", &StepReport::halvings, "How often a span was solved again as two halves.")
+        .def_readonly("halvings", &StepReport::halvings, "How often a substep was solved again as two halves.")
         .def_readonly("dropped", &StepReport::dropped, "Why.")
         .def_readonly("residual", &StepReport::residual, "Relative to the first of the step, or to gravity's impulse.")
         .def_readonly("smallest_fraction", &StepReport::smallest_fraction, "Smallest part of a move that was free of crossing.")
         .def_readonly("sleeping_cloths", &StepReport::sleeping_cloths, "At rest.")
         .def_readonly("slept", &StepReport::slept, "All cloth was at rest: nothing was solved.")
         .def_readonly("stopped", &StepReport::stopped, "kinetic_damping set all velocities to 0 at its end.")
-        .def_readonly("contacts", &StepReport::contacts, "Contact rows at the end.")
+        .def_readonly("contacts", &StepReport::contacts, "Contact constraints at the end.")
         .def_readonly("smallest_distance", &StepReport::smallest_distance, "m; infinity if nothing was near.")
         .def_readonly("contact_stiffness", &StepReport::contact_stiffness, "N/m, largest of the step.")
         .def_readonly(
@@ -101,7 +101,7 @@ void bind_trouble(py::class_<StepReport>& report) {
         .def_readonly("stretch", &StepReport::stretch)
         .def_readonly("stretched_name", &StepReport::stretched_name)
         .def_readonly("wrong_derivative", &StepReport::wrong_derivative)
-        .def_readonly("contact_hash", &StepReport::contact_hash, "Of the contact rows at the end.")
+        .def_readonly("contact_hash", &StepReport::contact_hash, "Of the contact constraints at the end.")
         .def_readonly("energy", &StepReport::energy)
         .def_readonly("stages", &StepReport::stages)
         .def_readonly("cpu_s", &StepReport::cpu_s, "s, of all threads.");

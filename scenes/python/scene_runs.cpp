@@ -39,9 +39,9 @@ KeptFrame kept(const Frame& frame) {
 }
 
 /// Calls on_step where there is one; true if the run is to stop. Looks for signals, which Python's own code cannot meanwhile.
-bool told(const py::object& on_step, const StepReport& report, const BuiltScene& built, std::atomic<bool>& cancel) {
+bool reported(const py::object& on_step, const StepReport& report, const BuiltScene& built, std::atomic<bool>& cancel) {
     const TakenGil gil;
-    cancel = false;  // what has come is told now; what comes in on_step is its own to hear
+    cancel = false;  // earlier signals are reported now; those during on_step are its own
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     if (on_step.is_none()) return false;
     const auto view = std::make_shared<RunView>(RunView{&built});
@@ -93,7 +93,7 @@ public:
         };
         hooks.step = [&](const StepReport& report, const Simulation& simulation) {
             if (folder_) folder_->add(report, simulation);
-            stop_ = told(wishes_.on_step, report, built_, cancel_) || stop_;
+            stop_ = reported(wishes_.on_step, report, built_, cancel_) || stop_;
         };
         hooks.stop_asked = [&] { return stop_; };
         hooks.cancel = &cancel_;
@@ -222,7 +222,7 @@ py::list expectation_list(const SceneRun& run) {
     return list;
 }
 
-/// Told on standard error unless the host's warning filter says otherwise: nobody has to read `status` to hear of it.
+/// Warns on standard error unless the host's warning filter says otherwise: nobody has to read `status` to hear of it.
 void warn_of(const SceneRun& run, const std::string& scene) {
     const scenes::RunVerdict verdict = scenes::verdict_of_run(run.result);
     if (verdict.word != "crossed" && verdict.word != "unsolved") return;

@@ -4,6 +4,7 @@
 
 #include "common/nearest_name.h"
 #include "common/scene_file_error.h"
+#include "format/former_keys.h"
 #include "format/scene_check.h"
 #include "format/scene_table.h"
 #include "percale/error.h"
@@ -32,7 +33,7 @@ void check_setting_names(const py::dict& settings) {
     for (const SceneKey& key : step_keys()) valid.push_back(key.path);
     for (const auto& [key, value] : settings) {
         const auto name = key.cast<std::string>();
-        if (std::ranges::find(valid, name) == valid.end())
+        if (std::ranges::find(valid, name) == valid.end() && scenes::present_path("step." + name).empty())
             throw SceneError("Simulation", "unknown setting '" + name + "'" + scenes::suggestion(name, valid));
     }
 }
@@ -102,6 +103,18 @@ std::string fabric_repr(const Fabric& fabric) {
     return "Fabric(" + text + ")";
 }
 
+/// The keys of a table of a scene file, checked; former names are a DeprecationWarning.
+TomlNode checked_part(const py::dict& keys, const std::string& path) {
+    TomlNode node = node_of(keys);
+    std::vector<std::string> notes;
+    FaultList first(false);
+    scenes::rename_former_keys(node, path, notes, first);
+    for (const std::string& note : notes)
+        if (PyErr_WarnEx(PyExc_DeprecationWarning, note.c_str(), 1) != 0) throw py::error_already_set();
+    scenes::check_part(node, path, first);
+    return node;
+}
+
 }  // namespace
 
 scenes::Scene step_settings(const std::string& detector, const py::dict& settings) {
@@ -119,9 +132,8 @@ scenes::Scene step_settings(const std::string& detector, const py::dict& setting
             step[key] = value;
         }
     }
-    const TomlNode node = node_of(step);
+    const TomlNode node = checked_part(step, "step");
     FaultList first(false);
-    scenes::check_part(node, "step", first);
     scenes::read_fields(node, scenes::step_table(), scene, first);
     check_options(scene.step, "Simulation");
     return scene;
@@ -137,12 +149,7 @@ py::dict settings_dict(const StepSettings& settings, scenes::Detector detector) 
     return dict;
 }
 
-Fabric fabric_of_keys(const py::dict& keys) {
-    const TomlNode node = node_of(keys);
-    FaultList first(false);
-    scenes::check_part(node, "fabric", first);
-    return scenes::read_spec(node, scenes::fabric_table());
-}
+Fabric fabric_of_keys(const py::dict& keys) { return scenes::read_spec(checked_part(keys, "fabric"), scenes::fabric_table()); }
 
 Fabric fabric_of(py::handle value) {
     if (py::isinstance<Fabric>(value)) return value.cast<Fabric>();

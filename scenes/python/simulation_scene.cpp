@@ -100,7 +100,7 @@ void bind_steps(SimulationClass& simulation) {
         .def(
             "prepare", [](SharedSimulation& self) { self.run([](Simulation& s) { s.prepare(); }); },
             "Checks the start as the first step does, and moves out cloth that starts through, inside or touching an obstacle\n"
-            "(start_repair tells). Throws StartError, everything as it was, where that is not possible or start is refuse.")
+            "(start_repair says which). Throws StartError, everything as it was, where that is not possible or start is refuse.")
         .def(
             "step", [](SharedSimulation& self) { return self.run([](Simulation& s) { return s.step(); }); },
             "Advances by the time step. A step that fails (report.ok is False) leaves the state as it was and keeps the targets\n"

@@ -41,7 +41,7 @@ void put_integer(py::handle value, const std::string& shown, TomlNode& node) {
     if (overflow != 0) throw SceneError(shown + " = " + py::str(value).cast<std::string>() + " has more than 64 bits");
 }
 
-/// NumPy's numbers and arrays have Python's by `tolist`.
+/// NumPy's numbers and arrays become Python's by `tolist`.
 bool is_of_numpy(py::handle value) { return py::isinstance<py::array>(value) || py::hasattr(value, "tolist"); }
 
 void put_value(py::handle value, const std::string& name, const std::string& shown, TomlNode& node) {
@@ -62,7 +62,7 @@ void put_value(py::handle value, const std::string& name, const std::string& sho
     node.text = (is_path ? py::str(value.attr("__fspath__")()) : py::reinterpret_borrow<py::str>(value)).cast<std::string>();
 }
 
-/// What holds itself would be followed without end.
+/// Guards against an object that holds itself, which would be followed without end.
 struct RecursionGuard {
     RecursionGuard() {
         if (Py_EnterRecursiveCall(" in a value that holds itself") != 0) throw py::error_already_set();

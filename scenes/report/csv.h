@@ -11,7 +11,7 @@ namespace percale::scenes {
 /// Nine digits; empty where the number is not finite.
 std::string csv_number(double value);
 
-/// In quotes where the text needs them.
+/// The text, in quotes where it needs them.
 std::string csv_text(const std::string& text);
 
 /// The cells of a line in which nothing is in quotes.

@@ -30,10 +30,10 @@ struct Image {
     const std::uint8_t* at(int column, int row) const;
 };
 
-/// The colour over what is there: `cover` 0 ... 1. Outside the image nothing happens.
+/// Blends the colour over what is there: `cover` 0 ... 1. Outside the image nothing happens.
 void blend(Image& image, int column, int row, const Bytes3& colour, float cover);
 
-/// What is there is replaced. Throws SceneError where a part would lie outside.
+/// Replaces what is there. Throws SceneError where a part would lie outside.
 void paste(Image& onto, const Image& part, int left, int top);
 
 /// Writes it as PNG of 8 bits a channel, RGB if all of it is opaque, else RGBA; whole or not at all. Throws SceneError naming

@@ -15,7 +15,8 @@ constexpr double plot_width = 860.0, plot_height = 540.0;  // pixels
 constexpr double plot_left = 90.0, plot_right = 640.0, plot_top = 50.0, plot_bottom = 470.0;
 constexpr double legend_left = 660.0, legend_line = 24.0;
 
-// Dark enough on white; the first seven told apart with any colour vision (Okabe and Ito 2008), the others by their markers, too.
+// Dark enough on white; the first seven can be distinguished with any colour vision (Okabe and Ito 2008), the others by their
+// markers, too.
 constexpr std::array<const char*, 12> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#b8860b",
                                                  "#56b4e9", "#7b3294", "#a50026", "#666666", "#1b7837", "#e377c2"};
 
@@ -146,10 +147,10 @@ double LogAxis::place(double value) const {
 
 LogAxis axis_around(const std::vector<double>& values, double from, double to) {
     if (values.empty()) return {0, 1, from, to};
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    const auto [min, max] = std::minmax_element(values.begin(), values.end());
     // Rounding of the logarithm must not open another decade.
-    const int first = static_cast<int>(std::floor(std::log10(*least) + decade_rounding));
-    const int last = static_cast<int>(std::ceil(std::log10(*most) - decade_rounding));
+    const int first = static_cast<int>(std::floor(std::log10(*min) + decade_rounding));
+    const int last = static_cast<int>(std::ceil(std::log10(*max) - decade_rounding));
     return {first, std::max(last, first + 1), from, to};
 }
 

@@ -24,7 +24,7 @@ struct Plot {
     std::string floor_label = {};
 };
 
-/// A stretch of a logarithmic axis and where it is drawn, in pixels.
+/// A range of a logarithmic axis and where it is drawn, in pixels.
 struct LogAxis {
     int first = 0, last = 1;  // powers of ten at its ends
     double from = 0.0, to = 1.0;
@@ -33,7 +33,7 @@ struct LogAxis {
     double place(double value) const;
 };
 
-/// The smallest stretch of whole decades that holds all values (positive, finite); 0 ... 1 without any.
+/// The smallest range of whole decades that holds all values (positive, finite); 0 ... 1 without any.
 LogAxis axis_around(const std::vector<double>& values, double from, double to);
 
 /// The diagram as a well-formed SVG document; the same bytes for the same plot.

@@ -38,7 +38,7 @@ struct ScriptedEvent {
 /// SceneError with the event's place for an unknown cloth, a bad selection, or a move of a vertex that is not pinned then.
 std::vector<ScriptedEvent> script_events(const Scene& scene, std::span<const TriangleMesh> cloth_meshes);
 
-/// In a step about this time, m/s^2.
+/// The gravity in a step about this time, m/s^2.
 Vec3 gravity_at(const Scene& scene, double time);
 
 }  // namespace percale::scenes

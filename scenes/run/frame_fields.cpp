@@ -38,11 +38,11 @@ std::vector<std::vector<std::pair<std::string, Spread>>> fit_now(const BuiltScen
     for (const MeshFields& fields : fields_of(built, cloths, obstacles)) {
         std::vector<std::pair<std::string, Spread>>& own = all.emplace_back();
         for (const MeshField& field : fields.triangle) own.emplace_back(field.name, spread_of(field.values));
-        const auto told = [&](const MeshField& field) {
+        const auto reported = [&](const MeshField& field) {
             return std::ranges::any_of(fields.triangle, [&](const MeshField& other) { return other.name == field.name; });
         };
         for (const MeshField& field : fields.vertex) {
-            if (!told(field)) own.emplace_back(field.name, spread_of(field.values));
+            if (!reported(field)) own.emplace_back(field.name, spread_of(field.values));
         }
     }
     return all;

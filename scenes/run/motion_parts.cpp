@@ -11,7 +11,7 @@
 namespace percale::scenes {
 namespace {
 
-/// How long two stretches of time have in common, s.
+/// The time that two intervals have in common, s.
 double overlap(double from, double to, double other_from, double other_to) {
     return std::max(0.0, std::min(to, other_to) - std::max(from, other_from));
 }
@@ -77,7 +77,7 @@ int motion_parts(const BuiltScene& built, double dt) {
         parts = std::max(parts, amount.angle / largest_part_turn);
         if (amount.path > 0.0) parts = std::max(parts, parts_of_displacement(built, i, amount.path, dt));
     }
-    return static_cast<int>(std::ceil(std::min(parts, most_motion_parts) - part_rounding));
+    return static_cast<int>(std::ceil(std::min(parts, max_motion_parts) - part_rounding));
 }
 
 }  // namespace percale::scenes

@@ -76,7 +76,7 @@ public:
 
     int next_frame() const { return frame_.index; }
     bool framed() const { return framed_; }
-    /// Of the present state, made unless it is there.
+    /// The certificate of the present state, made unless it is there.
     const FrameCheck& check() {
         see();
         return frame_.check;
@@ -88,7 +88,7 @@ public:
         return static_cast<double>(frame_.index) / built_.scene.output.fps <= built_.simulation.time() + slack;
     }
 
-    /// The state after so many steps.
+    /// Looks at the state after so many steps.
     void look(int steps) {
         seen_ = framed_ = false;
         if (measures_.steps) {
@@ -98,7 +98,7 @@ public:
         make_due_frames();
     }
 
-    /// A frame of the present state, which is the last one, unless it has one.
+    /// Makes a frame of the present state, which is the last one, unless it has one.
     void look_at_end() {
         if (framed_) return;
         see();
@@ -111,7 +111,7 @@ private:
         seen_ = true;
     }
 
-    /// Frames due by now; several where the frame rate is higher than the step rate.
+    /// Makes the frames due by now; several where the frame rate is higher than the step rate.
     void make_due_frames() {
         while (frame_is_due()) {
             see();
@@ -120,7 +120,7 @@ private:
     }
 
     void make_frame() {
-        // Before anything counts the frame: what is cancelled here is none.
+        // The fields come before anything counts the frame: if they are cancelled, there is no frame.
         if (hooks_.frame) frame_.fields = fields_of(built_, frame_.cloths, frame_.obstacles, hooks_.cancel);
         add_frame(measures_, frame_.index, frame_.check);
         if (hooks_.frame) hooks_.frame(frame_);
@@ -158,7 +158,7 @@ void add_accepted(RunTotals& totals, const StepReport& report) {
     add_pinch(totals.pinches, report);
 }
 
-/// Steps measure nothing; with nothing skipped they do.
+/// Whether frames measure and steps do not; with nothing skipped steps measure, too.
 bool is_measured_by_frames(const BuiltScene& built) {
     return built.scene.step.measure == StepMeasures::automatic && built.scene.step.skip;
 }
@@ -184,7 +184,7 @@ struct RunScript {
     StepReport step = {};  // the last one
     double energy_gain = 0.0;
 
-    /// For the expectations that have times.
+    /// Shows the state to the expectations that have times.
     void look_at_state(const BuiltScene& built, const StepReport* ended) {
         timed.look({.simulation = built.simulation,
                     .cloths = built.cloths,
@@ -196,7 +196,7 @@ struct RunScript {
     }
 };
 
-/// `where`: "", or what is to be told besides.
+/// `where`: "", or what else the reason has to say.
 void stop_at(const BuiltScene& built, const std::string& where, RunResult& result) {
     result.status = RunStatus::stopped;
     result.reason = "stopped at " + short_number(built.simulation.time()) + " of " + short_number(built.scene.latest_end()) +
@@ -332,7 +332,7 @@ private:
 
     bool over() const { return (script_.rest && script_.rest->figures().at_rest) || lengths_.over(built_.simulation.time()); }
 
-    /// The last frame, and what became of a scene that has to end at rest.
+    /// Makes the last frame, and judges a scene that has to end at rest.
     void end_at_rest(const RestFigures& figures) {
         script_.observer.look_at_end();
         if (is_measured_by_frames(built_))
@@ -393,7 +393,7 @@ private:
     CheckpointTimes checkpoints_;
 };
 
-/// Those of the end, each with its own file.
+/// Measures the expectations `matches` of the end, each with its own file.
 void measure_matches(const BuiltScene& built, std::span<const std::vector<Vec3>> references, RunResult& result) {
     for (std::size_t i = 0; i < references.size(); ++i) {
         const Expectation& expectation = built.scene.expectations[i];

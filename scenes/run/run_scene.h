@@ -30,11 +30,11 @@ struct Frame {
 
 /// Sums and extremes over the steps of a run.
 struct RunTotals {
-    int steps = 0;           // accepted
-    int rejected_steps = 0;  // steps that were redone as shorter ones
-    DroppedSpans dropped;    // why they were redone
-    int unsolved_steps = 0;  // accepted with what the solver had come to: not_converged or tolerance_missed
-    int sleeping_steps = 0;  // in which all cloth was at rest: not solved
+    int steps = 0;            // accepted
+    int rejected_steps = 0;   // steps that were redone as shorter ones
+    DroppedSubsteps dropped;  // why they were redone
+    int unsolved_steps = 0;   // accepted with what the solver had come to: not_converged or tolerance_missed
+    int sleeping_steps = 0;   // in which all cloth was at rest: not solved
     double simulated_s = 0.0;
     double smallest_step_s =
         std::numeric_limits<double>::infinity();  // of the parts that steps were solved in; infinity if none was accepted
@@ -49,7 +49,7 @@ struct RunTotals {
     double cpu_s = 0.0;              // CPU seconds of all threads inside steps only
     double wall_s = 0.0;             // whole run, output included
     std::vector<Pinch> pinches;      // in the order of their beginnings
-    StepEnergy energy;               // J, at the end; what flows is summed over the run
+    StepEnergy energy;               // J, at the end; work and losses are summed over the run
 };
 
 struct RunResult {
@@ -64,7 +64,7 @@ struct RunResult {
     std::vector<double> resumed_at;         // s, where the run was resumed; empty for one that was not
 };
 
-/// Where a run stands between two steps of the scene: together with the scene, all that it takes to go on.
+/// The state of a run between two steps of the scene: together with the scene, all that it takes to continue.
 struct RunState {
     RunTotals totals;
     Measures measures;
@@ -81,7 +81,7 @@ struct RunState {
 
 /// What the caller does meanwhile; each may be empty.
 struct RunHooks {
-    std::function<void()> begin;                                     // once, when nothing that was given can be wrong any more
+    std::function<void()> begin;                                     // once, after all input was checked
     std::function<void(const Frame&)> frame;                         // each output frame, after it was certified
     std::function<void(const StepReport&, const Simulation&)> step;  // each step, a failed one too
     std::function<bool()> stop_asked;                                // asked after each step
@@ -97,12 +97,12 @@ struct RunSettings {
     std::string from_file = {};      // where that was read, for messages
 };
 
-/// Steps until the scene's duration is over, or with duration = "rest" until all cloth is proven at rest and nothing is to come;
-/// that has a last frame of its own, and has failed if it is not at rest by its longest duration (where the duration is no
-/// multiple of the time step the last step is shorter, or up to a thousandth longer), a step fails or a stop is asked for.
+/// Steps until the scene's duration is over, a step fails or a stop is asked for; with duration = "rest" until all cloth is
+/// proven at rest and nothing is to come. Such a run has a last frame of its own, and has failed if it is not at rest by
+/// max_duration. Where the duration is no multiple of the time step, the last step is shorter, or up to a thousandth longer.
 /// Adaptive steps (time_step = "auto") end at every time of a frame, an event and an expectation's `at`. Frame k follows the
-/// first step that ends at or after k / fps; frame 0 is the start. Every frame is certified against every obstacle, and cloth
-/// that meets cloth against that, also when nothing is written. A step in which an obstacle moves far is made in equal parts
+/// first step that ends at or after k / fps; frame 0 is the start. In every frame cloth is certified against every obstacle, and
+/// against cloth that it meets, also when nothing is written. A step in which an obstacle moves far is made in equal parts
 /// (motion_parts), each a step of the simulation and of the totals. Throws SceneError if the reference of a `matches` expectation
 /// cannot be read or has another number of vertices, or if the state to go on from is not one of this scene, before the first
 /// step; what a hook throws passes through. A run that goes on from a state ends with the same bits and figures as one that was

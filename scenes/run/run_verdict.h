@@ -9,7 +9,7 @@ namespace percale::scenes {
 
 /// What a run came to, whatever its scene expects.
 struct RunVerdict {
-    /// Of report.json: stopped, crossed, failed, unsolved or finished; where several hold, the first of them.
+    /// The status in report.json: stopped, crossed, failed, unsolved or finished; where several hold, the first of them.
     std::string word;
     /// All that is not well, in one line; empty where the run is.
     std::string reason;

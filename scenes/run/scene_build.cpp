@@ -25,18 +25,18 @@ namespace percale::scenes {
 namespace {
 
 /// How messages name a cloth and an obstacle.
-std::string told(const ClothSpec& cloth) { return "cloth '" + cloth.name + "'"; }
-std::string told(const ObstacleSpec& obstacle) { return "obstacle '" + obstacle.name + "'"; }
+std::string reported(const ClothSpec& cloth) { return "cloth '" + cloth.name + "'"; }
+std::string reported(const ObstacleSpec& obstacle) { return "obstacle '" + obstacle.name + "'"; }
 
-/// What an error says of a cloth or an obstacle, its name told once. Where a mesh is its own place, its file is not said again.
+/// What an error says of a cloth or an obstacle, with its name once. Where a mesh is its own place, its file is not named again.
 template <class Spec>
-std::string told_of(const Spec& spec, const SceneError& error) {
-    if (error.subject() == told(spec)) return error.what();
+std::string reported_of(const Spec& spec, const SceneError& error) {
+    if (error.subject() == reported(spec)) return error.what();
     const bool known = error.subject() == spec.name || error.subject() == spec.place.file;
     return "'" + spec.name + "': " + (known ? error.reason() : error.what());
 }
 
-/// Builds a cloth or an obstacle; what is wrong with it is told with its place in the scene file.
+/// Builds a cloth or an obstacle; errors name its place in the scene file.
 template <class Spec, class Work>
 void at_place_of(const Spec& spec, Work work) {
     try {
@@ -44,7 +44,7 @@ void at_place_of(const Spec& spec, Work work) {
     } catch (const SceneError& error) {
         // A file that is all there is to say of the place, and in which a place was found.
         if (spec.place.line == 0 && error.subject().starts_with(spec.place.file + ":")) throw;
-        fail_at(spec.place, told_of(spec, error));
+        fail_at(spec.place, reported_of(spec, error));
     }
 }
 
@@ -55,8 +55,8 @@ std::unique_ptr<ContactDetector> detector_for(const Scene& scene) {
     std::erase(valid, word_of(Detector::none));
     const std::string lacks = " needs a detector, but step.detector is none; valid: " + joined(valid);
     const ClothSpec* cloth = scene.cloth_that_meets_cloth();
-    if (!scene.obstacles.empty()) fail_at(scene.obstacles[0].place, told(scene.obstacles[0]) + lacks);
-    fail_at(cloth->place, told(*cloth) + ": self_contact" + lacks);
+    if (!scene.obstacles.empty()) fail_at(scene.obstacles[0].place, reported(scene.obstacles[0]) + lacks);
+    fail_at(cloth->place, reported(*cloth) + ": self_contact" + lacks);
 }
 
 const Fabric& fabric_of(const Scene& scene, const ClothSpec& cloth) {
@@ -67,18 +67,18 @@ const Fabric& fabric_of(const Scene& scene, const ClothSpec& cloth) {
 
 void check_shear(const ClothSpec& cloth, const TriangleMesh& mesh, double shear) {
     if (mesh.is_grid() || shear == 0.0) return;
-    throw SceneError(told(cloth), "fabric." + cloth.fabric + ".springs.shear = " + number_text(shear) +
-                                      " N/m, but a free mesh has no shear springs; it must be 0");
+    throw SceneError(reported(cloth), "fabric." + cloth.fabric + ".springs.shear = " + number_text(shear) +
+                                          " N/m, but a free mesh has no shear springs; it must be 0");
 }
 
-/// A preset has a warp. On a mesh that does not say where it is isotropic, which is not silent.
+/// A preset has a direction of warp. On a mesh without one the fabric is made isotropic, with a warning.
 Fabric fabric_on(BuiltScene& built, const ClothSpec& cloth, const TriangleMesh& mesh, const RestShape& rest) {
     const Fabric& fabric = fabric_of(built.scene, cloth);
     if (mesh.is_grid() || rest.warp != Vec3::Zero() || !built.scene.preset_moduli.contains(cloth.fabric)) return fabric;
     const Fabric result = isotropic(fabric);
     const auto [warp, weft] = *fabric.stretch_stiffness;
     built.warnings.push_back(
-        told(cloth) + ": its mesh does not say where warp is (key warp, or rest = \"uv\"); instead of stretch_stiffness = [" +
+        reported(cloth) + ": its mesh does not say where warp is (key warp, or rest = \"uv\"); instead of stretch_stiffness = [" +
         number_text(warp) + ", " + number_text(weft) + "] N/m, fabric." + cloth.fabric + " has " +
         number_text(result.stretch_stiffness->front()) + " N/m in every direction there, what belongs to its shear_stiffness");
     return result;
@@ -103,16 +103,16 @@ void pin_cloth(BuiltScene& built, const ClothSpec& cloth) {
     });
 }
 
-/// Steps longer than a frame pass by frames.
+/// Warns of steps longer than a frame, which pass by frames.
 void warn_of_passed_frames(BuiltScene& built, const ObstacleSpec& obstacle, const BodyShapes& shapes) {
     const double step = built.scene.step.time_step;
     if (obstacle.clip || built.scene.step.adaptive || step <= (1.0 + frame_rounding) * shapes.frame_time()) return;
-    built.warnings.push_back(told(obstacle) + ": its frames are " + short_number(shapes.frame_time()) +
+    built.warnings.push_back(reported(obstacle) + ": its frames are " + short_number(shapes.frame_time()) +
                              " s apart, step.time_step = " + short_number(step) + " s passes some by; take step.time_step = " +
                              short_number(shapes.frame_time()) + " or less where none is to be missed");
 }
 
-/// The share of a mesh's area in triangles with an edge above a length.
+/// The fraction of a mesh's area in triangles with an edge above a length.
 double coarse_share(const TriangleMesh& mesh, double longest) {
     double coarse = 0.0, whole = 0.0;
     for (const auto& [a, b, c] : mesh.triangles) {
@@ -124,13 +124,13 @@ double coarse_share(const TriangleMesh& mesh, double longest) {
     return whole > 0.0 ? coarse / whole : 0.0;
 }
 
-/// A surface gives way at its vertices alone.
-void warn_of_coarse_yielding(BuiltScene& built, const ObstacleSpec& obstacle, const TriangleMesh& mesh) {
+/// Warns of long edges, as a surface gives way at its vertices alone.
+void warn_of_coarse_compliant(BuiltScene& built, const ObstacleSpec& obstacle, const TriangleMesh& mesh) {
     double thickness = std::numeric_limits<double>::infinity();
     for (const ClothSpec& cloth : built.scene.cloths) thickness = std::min(thickness, fabric_of(built.scene, cloth).thickness);
     const double longest = coarse_edge_thicknesses * thickness, share = coarse_share(mesh, longest / obstacle.pose.scale);
-    if (share <= told_coarse_share) return;
-    built.warnings.push_back(told(obstacle) + ": on_pinch = \"yield\", but " + percent_text(share) +
+    if (share <= reported_coarse_ratio) return;
+    built.warnings.push_back(reported(obstacle) + ": on_pinch = \"yield\", but " + percent_text(share) +
                              " of its surface has edges above " + short_number(longest) +
                              " m, and it gives way at vertices alone; refine its mesh");
 }
@@ -139,14 +139,14 @@ void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
     std::shared_ptr<BodyShapes> shapes;
     if (obstacle.bends()) shapes = std::make_shared<BodyShapes>(built.scene, obstacle, &built.warnings);
     TriangleMesh mesh = shapes ? shapes->first() : obstacle_mesh(built.scene, obstacle, &built.warnings);
-    check_mesh(mesh, told(obstacle), false);
+    check_mesh(mesh, reported(obstacle), false);
     const ObstacleSettings settings{.friction = obstacle.friction,
                                     .restitution = obstacle.restitution,
                                     .name = obstacle.name,
                                     .deforming = shapes != nullptr,
                                     .yields = obstacle.yields};
     if (shapes) warn_of_passed_frames(built, obstacle, *shapes);
-    if (obstacle.yields) warn_of_coarse_yielding(built, obstacle, mesh);
+    if (obstacle.yields) warn_of_coarse_compliant(built, obstacle, mesh);
     built.shapes.push_back(std::move(shapes));
     built.obstacles.push_back(built.simulation.add_obstacle(mesh, obstacle_pose_at(obstacle, 0.0), settings));
     built.obstacle_meshes.push_back(std::move(mesh));
@@ -154,10 +154,10 @@ void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
 
 void sew(BuiltScene& built, const SeamSpec& seam, BuiltSeam made) {
     const auto [first, second] = made.sewn.cloths;
-    made.closed_at = seam.from + seam.over;
+    made.closed_at = seam.start_time + seam.duration;
     made.id = built.simulation.add_seam(built.cloths[first], built.cloths[second], made.sewn.stitches,
-                                        {.after = seam.from,
-                                         .over = seam.over,
+                                        {.after = seam.start_time,
+                                         .over = seam.duration,
                                          .stiffness = seam.stiffness,
                                          .contact_while_closing = seam.contact_while_closing,
                                          .weld = seam.weld,
@@ -165,7 +165,7 @@ void sew(BuiltScene& built, const SeamSpec& seam, BuiltSeam made) {
     built.seams.push_back(std::move(made));
 }
 
-/// All seams of a pattern, each with its name there.
+/// Sews all seams of a pattern, each with its name there.
 void sew_pattern(BuiltScene& built, int cloth, const SeamSpec& seam) {
     for (const SewnSeam& own : built.pattern_seams[cloth]) {
         if (own.stitches.empty()) continue;
@@ -187,7 +187,7 @@ void add_seam(BuiltScene& built, const SeamSpec& seam) {
     });
 }
 
-/// Patterns of which no [[seam]] says how they are sewn.
+/// Sews the patterns of which no [[seam]] says how they are sewn.
 void sew_other_patterns(BuiltScene& built) {
     for (int cloth = 0; cloth < static_cast<int>(built.cloths.size()); ++cloth) {
         const auto says = [&](const SeamSpec& seam) {
@@ -215,7 +215,7 @@ const SourcePlace& place_of_triangle(const BuiltScene& built, int triangle) {
     return built.scene.cloths[cloth].place;
 }
 
-// So have obstacles.
+// Obstacles have the same numbers there, too.
 [[noreturn]] void refuse_start(const BuiltScene& built, const StartError& error) {
     if (error.fault().between_cloths())
         throw StartRefused(place_of_triangle(built, error.fault().cloth_triangle), error.what(), {});
@@ -235,7 +235,7 @@ void check_start(BuiltScene& built) {
     }
 }
 
-/// What is likely a mistake.
+/// Adds warnings of what is likely a mistake.
 void add_doubts(BuiltScene& built) {
     std::vector<TriangleMesh> obstacles;
     for (std::size_t k = 0; k < built.obstacles.size(); ++k) obstacles.push_back(obstacle_now(built, k));
@@ -244,7 +244,7 @@ void add_doubts(BuiltScene& built) {
         built.warnings.insert(built.warnings.end(), doubts.begin(), doubts.end());
 }
 
-/// Cloth that would have torn, and what often is why.
+/// The warning of cloth that would have torn, with the frequent cause.
 std::string torn_text(const Scene& scene, double strain) {
     std::string text = "the largest strain is " + percent_text(strain) + ": cloth would have torn";
     const auto moving = std::ranges::find_if(scene.obstacles, [](const ObstacleSpec& o) { return obstacle_moves(o); });
@@ -308,7 +308,7 @@ std::vector<std::string> strain_warnings(const BuiltScene& built, double largest
         const std::optional<double> limit = built.scene.fabrics.at(cloth.fabric).strain_limit;
         if (!limit) continue;
         const double strain = built.simulation.largest_strain(built.cloths[k]);
-        if (strain <= (1.0 + passed_limit_share) * *limit) continue;
+        if (strain <= (1.0 + passed_limit_ratio) * *limit) continue;
         warnings.push_back("an edge of '" + cloth.name + "' is strained by " + percent_text(strain) +
                            ", beyond its strain_limit of " + percent_text(*limit) +
                            "; a sudden load passes it for some steps, one of more than twice the edge's stiffness for good");
@@ -390,7 +390,7 @@ BuiltScene build_scene(const Scene& given, const std::atomic<bool>* cancel) {
                      .shapes = {},
                      .pattern_seams = {},
                      .seams = {},
-                     .warnings = {}};
+                     .warnings = scene.warnings};
     for (const ClothSpec& cloth : scene.cloths) {
         at_place_of(cloth, [&] { add_cloth(built, cloth); });
         pin_cloth(built, cloth);

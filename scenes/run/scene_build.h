@@ -40,18 +40,18 @@ struct BuiltScene {
     std::vector<CleaningReport> cleaning = {};  // of each obstacle, likewise
 };
 
-/// Null for `none`.
+/// Makes a detector; null for `none`.
 std::unique_ptr<ContactDetector> make_detector(Detector detector);
 
 /// An obstacle as it stands now, m, world.
 TriangleMesh obstacle_now(const BuiltScene& built, std::size_t obstacle);
 
-/// What to tell of cloth that would have torn at the largest strain of a run, and of cloth that is now strained beyond its
+/// Warnings of cloth that would have torn at the largest strain of a run, and of cloth that is now strained beyond its
 /// strain_limit by more than a tenth of it.
 std::vector<std::string> strain_warnings(const BuiltScene& built, double largest_strain);
 
-/// What to tell of garments that are tight now: one that is too small for a body fits it all the same, springs stretch as far as
-/// they have to. Cloth that is pinned or filled is stretched by that, and a grid is no garment.
+/// Warnings of garments that are tight now: one that is too small for a body fits it all the same, springs stretch as far as they
+/// have to. Cloth that is pinned or filled is stretched by that, and a grid is no garment.
 std::vector<std::string> tight_warnings(const BuiltScene& built);
 
 /// The stitch that is farthest open.
@@ -66,13 +66,13 @@ WidestGap widest_gap(const BuiltScene& built);
 /// Its width, m; nothing without seams.
 std::optional<double> largest_seam_gap(const BuiltScene& built);
 
-/// For its user, of a gap that is too wide.
+/// The message to users about a gap that is too wide.
 std::string unsewn_text(const WidestGap& gap);
 
-/// What to tell of seams that should have closed and are open by more than `widest_sewn_gap`.
+/// Warnings of seams that should have closed and are open by more than `widest_sewn_gap`.
 std::vector<std::string> seam_warnings(const BuiltScene& built);
 
-/// What all seams have sewn.
+/// The stitches of all seams.
 std::vector<ClothStitches> sewn_stitches(const BuiltScene& built);
 
 /// The mesh of an obstacle with its unit applied, its pose not; not yet checked (check_mesh). Throws SceneError for a file that

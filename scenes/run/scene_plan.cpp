@@ -52,7 +52,7 @@ std::string springs_text(const SpringCounts& springs) {
 
 std::string steps_text(const Scene& scene) {
     const StepSettings& step = scene.step;
-    const std::string until = scene.until_rest ? "until rest, at most " + short_number(scene.longest) + " s; " : "";
+    const std::string until = scene.until_rest ? "until rest, at most " + short_number(scene.max_duration) + " s; " : "";
     if (step.adaptive) return until + "steps as long as an error of " + short_number(step.tolerance) + " m a second allows";
     const StepCount count = count_steps(scene.latest_end(), step.time_step);
     return until + (scene.until_rest ? "at most " : "") + counted(count.steps, "step") + " of " + short_number(step.time_step) +

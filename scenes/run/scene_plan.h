@@ -7,7 +7,7 @@
 
 namespace percale::scenes {
 
-/// How many steps of what length a scene is run in.
+/// The number and the length of the steps in which a scene is run.
 std::string steps_text(const Scene& scene);
 
 /// The plan of a built scene before its first step, with the motion and events that its file holds.
@@ -16,8 +16,8 @@ ScenePlan plan_of(const BuiltScene& built);
 /// What was left out of each obstacle's mesh.
 std::vector<CleaningReport> cleaning_of(const BuiltScene& built);
 
-/// Make these once for all who ask later: the longest stable step of a large cloth takes seconds, as cleaning a large mesh does,
-/// which reports alone tell of.
+/// Computes plan and cleaning once for all later calls: the longest stable step of a large cloth takes seconds, as does the
+/// cleaning of a large mesh, which only reports state.
 void keep_plan(BuiltScene& built);
 void keep_cleaning(BuiltScene& built);
 

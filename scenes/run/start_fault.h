@@ -30,7 +30,7 @@ std::string start_move_text(const StartMove& move, std::string_view when = "befo
 
 /// Prints what a scene's start needed, a line each; returns how many.
 std::size_t print_start_moves(const Simulation& simulation);
-/// Prints what was moved since those when seams had closed.
+/// Prints the moves after the first `start_moves`, made when seams had closed.
 void print_moves_after(std::size_t start_moves, const Simulation& simulation);
 
 }  // namespace percale::scenes

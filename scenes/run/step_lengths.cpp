@@ -40,7 +40,7 @@ StepCount count_steps(double duration, double time_step) {
     const double full = std::floor(ratio);
     // A rounded time step leaves a remainder that is no step of its own: the last one takes it along.
     const double longer = duration - (full - 1.0) * time_step;
-    if (full >= 1.0 && ratio - full <= least_last_step && longer <= longest_step()) return {static_cast<long>(full), longer};
+    if (full >= 1.0 && ratio - full <= min_last_step && longer <= longest_step()) return {static_cast<long>(full), longer};
     return {static_cast<long>(full) + 1, duration - full * time_step};
 }
 
@@ -56,7 +56,7 @@ double StepLengths::next(double now) {
     if (!scene_.step.adaptive) return made_ >= count_.steps ? count_.last_dt : scene_.step.time_step;
     const double left = next_stop(scene_, now) - now;
     const double length = left / std::max(1.0, std::ceil(left / scene_.step.time_step - 1e-9));
-    // The same length in every bit as before: another one would be a change of the scene.
+    // The length stays the same in every bit: another one would be a change of the scene.
     if (std::abs(length - length_) > 1e-9 * length) length_ = length;
     return length_;
 }

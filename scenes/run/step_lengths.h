@@ -11,7 +11,7 @@ struct StepCount {
 };
 StepCount count_steps(double duration, double time_step);
 
-/// Tells how long the steps of a run are: `time_step`, the last one shorter; with "auto" equal ones from stop to stop, which are
+/// Says how long the steps of a run are: `time_step`, the last one shorter; with "auto" equal ones from stop to stop, which are
 /// the times of frames, events and expectations' `at`, and the scene's end. Times in s.
 class StepLengths {
 public:
@@ -21,11 +21,11 @@ public:
     long made() const { return made_; }
     double length() const { return length_; }
     bool over(double now) const;
-    /// Of the next step.
+    /// The length of the next step.
     double next(double now);
 
 private:
-    /// In steps of step.time_step.
+    /// The time that is left, in steps of step.time_step.
     double left(double now) const;
 
     const Scene& scene_;
@@ -34,7 +34,7 @@ private:
     long made_;
 };
 
-/// Tells when checkpoints are due: whenever another so many seconds of the scene are over; 0: never.
+/// Says when checkpoints are due: at the end of each interval of so many seconds of the scene; 0: never.
 class CheckpointTimes {
 public:
     CheckpointTimes(double every, double now) : every_(every), made_(count(now)) {}

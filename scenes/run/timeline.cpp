@@ -42,7 +42,7 @@ bool Timeline::more_to_come(const BuiltScene& built, double time) const {
     return next_event_ < events_.size() || !moving_pins_.empty() || std::ranges::any_of(built.shapes, bends) ||
            std::any_of(scene.obstacles.begin(), scene.obstacles.end(), moves) ||
            std::any_of(scene.seams.begin(), scene.seams.end(),
-                       [&](const SeamSpec& seam) { return seam.from + seam.over > time; });
+                       [&](const SeamSpec& seam) { return seam.start_time + seam.duration > time; });
 }
 
 void Timeline::go_on_from(const BuiltScene& built, const State& state) {
@@ -82,7 +82,7 @@ void Timeline::start_move(const BuiltScene& built, const ScriptedMove& move, dou
         moving_pins_.push_back({move.cloth, vertex, positions[static_cast<std::size_t>(vertex)], move.to, from, move.over});
 }
 
-/// What an event moves or lets go it finds where it is, not on its way.
+/// Forgets the motion of pins that an event moves or releases: the event takes them where they are.
 void Timeline::forget_pins(const ScriptedEvent& event) {
     const auto forget = [&](const auto& of) {
         const auto is_one = [&](const auto& pin) {

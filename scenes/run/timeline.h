@@ -34,7 +34,7 @@ public:
         std::vector<MovingPin> moving_pins;
     };
     State state() const { return {static_cast<long>(next_event_), moving_pins_}; }
-    /// Goes on from there. Throws SceneError for a state of another scene.
+    /// Continues from a state. Throws SceneError for a state of another scene.
     void go_on_from(const BuiltScene& built, const State& state);
 
 private:

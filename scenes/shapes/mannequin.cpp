@@ -23,7 +23,7 @@ Vec3 gradient(const Vec3& point) {
 
 /// Newton's method along the gradient: x <- x - d grad d / |grad d|^2.
 Vec3 on_surface(Vec3 x) {
-    for (int round = 0; round < most_surface_steps; ++round) {
+    for (int round = 0; round < max_surface_steps; ++round) {
         const double d = mannequin_distance(x);
         if (std::abs(d) < surface_error) break;
         const Vec3 slope = gradient(x);
@@ -57,7 +57,7 @@ TriangleMesh make_mannequin(double spacing) {
     };
     relax(half, mannequin_first_rounds, project);
     for (int round = 0; round < mannequin_merges; ++round) {
-        collapse_short_edges(half, mannequin_merge_share * spacing);
+        collapse_short_edges(half, mannequin_merge_ratio * spacing);
         relax(half, mannequin_rounds, project);
     }
     return mirrored(half);

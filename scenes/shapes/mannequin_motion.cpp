@@ -12,13 +12,13 @@ namespace {
 using Eigen::Quaterniond;
 
 constexpr double pi = std::numbers::pi;
-constexpr double stance = 0.6;  // share of the period in which a foot stands
+constexpr double stance = 0.6;  // fraction of the period in which a foot stands
 
 struct PhaseKey {
     double phase, degrees;
 };
 
-// Of a foot that comes down at phase 0. Its pitch, toes up: it rolls over the heel until it is flat and over the toes from
+// The pitch, toes up, of a foot that comes down at phase 0: it rolls over the heel until it is flat and over the toes from
 // heel-off on; the toes stay flat meanwhile.
 constexpr PhaseKey foot_pitch[] = {{0.0, 16.0}, {0.11, 0.0}, {0.34, 0.0}, {stance, -36.0}, {1.0, 16.0}};
 constexpr PhaseKey toe_pitch[] = {{0.0, 0.0}, {0.34, 0.0}, {stance, 36.0}, {0.85, 0.0}, {1.0, 0.0}};
@@ -65,7 +65,8 @@ struct Pelvis {
     double yaw;
 };
 
-/// Highest over the standing leg, towards which it shifts, the side of the swinging leg lower; the leading leg's side in front.
+/// The pelvis is highest over the standing leg, towards which it shifts, and lower at the side of the swinging leg; the side of
+/// the leading leg is in front.
 Pelvis pelvis_at(double phase) {
     const double rise = -0.031 - 0.021 * std::cos(4.0 * pi * (phase - 0.05)), roll = radians(2.5) * std::sin(2.0 * pi * phase);
     const double yaw = -radians(4.0) * std::cos(2.0 * pi * phase);

@@ -7,7 +7,7 @@
 // What the mannequin is put together from. Lengths in m; it stands on y = 0 and faces +z.
 namespace percale::scenes {
 
-/// The hull of two spheres. `blend`: reach of the smooth minimum with the parts before it in its list, m.
+/// The hull of two spheres. `blend`: range of the smooth minimum with the parts before it in its list, m.
 struct BodyPart {
     Vec3 from, axis;  // axis: unit, towards the second sphere
     double length, radius_from, radius_to;

@@ -60,8 +60,9 @@ void share_leg(const std::vector<Joint>& joints, const Vec3& x, Shares& shares) 
     pass_on(shares, joint::ankle, joint::toes, ramp(beyond(joints, joint::toes, Vec3::UnitZ(), x), 0.03));
 }
 
-/// Of a point with x >= 0. The arm begins where the distances to it and to the trunk are equal: at the armpit, where its far side
-/// is not near. The leg begins at the crease from the crotch up to the side of the hip; the middle stays with the hips.
+/// The shares of a point with x >= 0. The arm begins where the distances to it and to the trunk are equal: at the armpit, where
+/// its far side is not near. The leg begins at the crease from the crotch up to the side of the hip; the middle stays with the
+/// hips.
 Shares shares_of(const Vec3& x) {
     static const std::vector<Joint> joints = mannequin_joints();
     const double arm = ramp(core_distance(x) - parts_distance(arm_parts(), x), 0.05);
@@ -77,7 +78,7 @@ Shares shares_of(const Vec3& x) {
     return shares;
 }
 
-/// The four largest, in steps of 2^-16; what rounding leaves goes to the largest.
+/// The four largest shares, in steps of 2^-16; what rounding leaves goes to the largest.
 VertexWeights largest_four(const Shares& shares) {
     std::array<int, joint_count> order{};
     for (int j = 0; j < joint_count; ++j) order[j] = j;

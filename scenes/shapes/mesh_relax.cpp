@@ -64,11 +64,11 @@ std::array<Triangle, 2> flipped(const Triangle& first, int k, const Triangle& se
 bool worth_flipping(const TriangleMesh& mesh, const std::array<Triangle, 2>& before, const std::array<Triangle, 2>& after) {
     const double gain = std::min(smallest_angle_of(mesh, after[0]), smallest_angle_of(mesh, after[1])) -
                         std::min(smallest_angle_of(mesh, before[0]), smallest_angle_of(mesh, before[1]));
-    if (gain < least_flip_gain) return false;
+    if (gain < min_flip_gain) return false;
     // Every new normal stays within 60 degrees of both old ones.
     for (const Triangle& now : after)
         for (const Triangle& was : before)
-            if (normal_of(mesh, now).normalized().dot(normal_of(mesh, was).normalized()) < least_normal_cosine) return false;
+            if (normal_of(mesh, now).normalized().dot(normal_of(mesh, was).normalized()) < min_normal_cosine) return false;
     return true;
 }
 
@@ -123,8 +123,8 @@ bool star_survives(const TriangleMesh& mesh, const std::vector<int>& star, int g
         if (contains(before, kept)) continue;
         Triangle after = before;
         std::replace(after.begin(), after.end(), gone, kept);
-        if (smallest_angle_of(mesh, after) < least_merged_angle) return false;
-        if (normal_of(mesh, after).normalized().dot(normal_of(mesh, before).normalized()) < least_normal_cosine) return false;
+        if (smallest_angle_of(mesh, after) < min_merged_angle) return false;
+        if (normal_of(mesh, after).normalized().dot(normal_of(mesh, before).normalized()) < min_normal_cosine) return false;
     }
     return true;
 }
@@ -159,7 +159,7 @@ void compact(TriangleMesh& mesh, const std::vector<bool>& gone) {
 
 int flip_edges(TriangleMesh& mesh) {
     int total = 0, flips = 1;
-    for (int sweep = 0; sweep < most_flip_sweeps && flips > 0; ++sweep) total += flips = flip_sweep(mesh);
+    for (int sweep = 0; sweep < max_flip_sweeps && flips > 0; ++sweep) total += flips = flip_sweep(mesh);
     return total;
 }
 

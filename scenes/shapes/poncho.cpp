@@ -29,8 +29,8 @@ void check(const PonchoShape& shape) {
     check_length(shape.hole_depth, "hole_depth", 3.0 * shape.edge_length, widest);
 }
 
-/// From the centre to the rounded square's outline in the direction (cosine, sine): the side, or where the corner's circle about
-/// (c, c) is left: |t u - (c, c)| = radius.
+/// The distance from the centre to the rounded square's outline in the direction (cosine, sine): the side, or where the corner's
+/// circle about (c, c) is left: |t u - (c, c)| = radius.
 double outline_reach(const PonchoShape& shape, double cosine, double sine) {
     const double u = std::abs(cosine), v = std::abs(sine);
     const double half = 0.5 * shape.side, centre = half - shape.corner_radius;
@@ -44,7 +44,7 @@ double hole_reach(const PonchoShape& shape, double cosine, double sine) {
     return 0.5 / std::hypot(cosine / shape.hole_width, sine / shape.hole_depth);
 }
 
-/// The closed curve that lies the given share of the way from the hole (0) to the outline (1), finely sampled.
+/// The closed curve at a fraction `share` of the way from the hole (0) to the outline (1), finely sampled.
 Ring curve(const PonchoShape& shape, double share) {
     Ring points;
     for (int k = 0; k < poncho_samples; ++k) {
@@ -125,7 +125,7 @@ TriangleMesh make_poncho(const PonchoShape& shape) {
     for (int round = 0; round < poncho_merges; ++round) {
         fixed = boundary_vertices(mesh);
         relax(mesh, poncho_rounds, stay);
-        collapse_short_edges(mesh, poncho_merge_share * shape.edge_length);
+        collapse_short_edges(mesh, poncho_merge_ratio * shape.edge_length);
     }
     fixed = boundary_vertices(mesh);
     relax(mesh, poncho_last_rounds, stay);

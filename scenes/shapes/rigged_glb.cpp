@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Vec4 = std::array<double, 4>;
 
-constexpr std::size_t most_vertices = 65535;  // index 65535 is not allowed among 16 bits
+constexpr std::size_t max_vertices = 65535;  // index 65535 is not allowed among 16 bits
 
 /// The root of the JSON chunk and the binary chunk, both as far as they are written.
 class GlbContent {
@@ -132,7 +132,8 @@ Vec4 rounded_rotation(const Rotation& rotation) {
     return q;
 }
 
-/// Of one joint at all times. Of the two signs of a quaternion the one nearer to the key before, as players go.
+/// The rotations of one joint at all times. Each quaternion has the sign that is nearer to the key before, as players
+/// interpolate.
 std::vector<Vec4> rotation_keys(const Clip& clip, std::size_t index) {
     std::vector<Vec4> keys;
     for (const MannequinPose& pose : clip.poses) {
@@ -174,7 +175,7 @@ void add_animation(GlbContent& content, const Rig& rig, const Clip& clip) {
 }  // namespace
 
 std::string rigged_glb(const std::string& name, const Rig& rig, std::span<const Clip> clips) {
-    if (rig.mesh.vertices.size() > most_vertices)
+    if (rig.mesh.vertices.size() > max_vertices)
         throw SceneError("GLB: " + std::to_string(rig.mesh.vertices.size()) + " vertices, allowed are 65535");
     GlbContent content;
     content.root["asset"] = {{"version", "2.0"}, {"generator", "percale_make_data"}};

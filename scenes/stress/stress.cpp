@@ -21,7 +21,7 @@ StressRow refused(const StressCell& cell, const SceneError& error) {
     return row;
 }
 
-/// What the simulation is about to be judged by.
+/// The watch by which the simulation is to be judged.
 StressWatch watch_of(const StressCell& cell, const Simulation& simulation, std::span<const ClothId> cloths,
                      std::span<const HeldVertex> held) {
     StressWatch watch(simulation, cloths, held);
@@ -47,7 +47,7 @@ std::string scripted_cloth(const EventSpec& event) {
         event.what);
 }
 
-/// Pinned vertices of cloths that no event touches.
+/// Pinned vertices of cloths that no event changes.
 std::vector<HeldVertex> held_of(const BuiltScene& built) {
     std::vector<HeldVertex> held;
     for (std::size_t c = 0; c < built.cloths.size(); ++c) {
@@ -90,7 +90,7 @@ StressRow run_scene_cell(const SceneSource& source, const StressCell& cell, cons
     }
 }
 
-/// A change of gravity moves energy without work, so that no gain can be told.
+/// A change of gravity moves energy without work, so that no gain can be determined.
 void refuse_gravity_events(const Scene& scene) {
     for (const EventSpec& event : scene.events)
         if (std::holds_alternative<GravityEvent>(event.what))
@@ -102,7 +102,7 @@ Scheme scheme_named(const std::string& word) {
     return static_cast<Scheme>(std::find(words.begin(), words.end(), word) - words.begin());
 }
 
-void tell(const StressHooks& hooks, std::size_t made, std::size_t all) {
+void report_progress(const StressHooks& hooks, std::size_t made, std::size_t all) {
     if (hooks.progress) hooks.progress(static_cast<int>(made), static_cast<int>(all));
     if (made < all && hooks.stop_asked && hooks.stop_asked()) throw ComparisonStopped();
 }
@@ -118,8 +118,8 @@ StressRow run_cell(const StressCell& cell, int steps) {
     try {
         StressCase made = make_case(cell);
         StressWatch watch = watch_of(cell, made.simulation, made.cloths, made.held);
-        const int most = std::isinf(made.simulation.plan().stable_step) ? steps : explicit_factor * steps;
-        for (int n = 0; n < most && watch.figures.status == "ok"; ++n) watch.look(made.simulation.step(), made.simulation);
+        const int max = std::isinf(made.simulation.plan().stable_step) ? steps : explicit_factor * steps;
+        for (int n = 0; n < max && watch.figures.status == "ok"; ++n) watch.look(made.simulation.step(), made.simulation);
         StressRow row{.cell = cell, .figures = std::move(watch.figures)};
         row.verdict = verdict_of(row.figures);
         return row;
@@ -132,7 +132,7 @@ StressRun stress_cells(std::span<const StressCell> cells, int steps, const Stres
     StressRun run{.title = "small cloths", .steps = steps, .rows = {}};
     for (const StressCell& cell : cells) {
         run.rows.push_back(run_cell(cell, steps));
-        tell(hooks, run.rows.size(), cells.size());
+        report_progress(hooks, run.rows.size(), cells.size());
     }
     return run;
 }
@@ -152,7 +152,7 @@ StressRun stress_scene(const SceneSource& source, const SceneStress& settings, c
                                       .time_step = time_step,
                                       .stiffness = factor};
                 run.rows.push_back(run_scene_cell(source, cell, scheme, settings.steps));
-                tell(hooks, run.rows.size(), all);
+                report_progress(hooks, run.rows.size(), all);
             }
         }
     }

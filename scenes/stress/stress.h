@@ -24,7 +24,7 @@ struct StressRun {
     int steps = 0;          // of each cell, at most; cells of the matrix: run_cell
     std::vector<StressRow> rows;
 
-    /// Rows with a verdict that their scheme must not have.
+    /// The number of rows with a verdict that their scheme must not have.
     int failures() const;
 };
 

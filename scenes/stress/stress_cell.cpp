@@ -18,7 +18,7 @@ constexpr double cell_width = width / (side - 1);
 constexpr double density = 0.2;  // kg/m^2
 constexpr std::uint32_t velocity_seed = 5;
 
-/// In -1 ... 1, the same on every machine.
+/// Numbers in -1 ... 1, the same on every machine.
 class Random {
 public:
     double number() { return static_cast<double>(bits_()) / 2147483647.5 - 1.0; }
@@ -79,7 +79,7 @@ TriangleMesh mesh_of(const StressCell& cell) {
     return make_grid(width, width, side, side);
 }
 
-/// Without damping. Two cloths of a mass ratio r are lighter and heavier than a single one by its root.
+/// The fabric without damping. Two cloths of a mass ratio r are lighter and heavier than a single one by its root.
 Fabric undamped_fabric(const StressCell& cell, double density_factor) {
     const double shear = cell.mesh == StressMesh::grid ? 0.5 * cell.stiffness : 0.0;
     return {.area_density = density * density_factor,

@@ -17,7 +17,7 @@ struct BasePoint {
     double time_step, stiffness;  // s, N/m
 };
 
-/// From easy to hard; the fastest mode times the step is 0.2, 6, 37, 600 and 20000 in turn.
+/// The base points from easy to hard; the fastest mode times the step is 0.2, 6, 37, 600 and 20000 in turn.
 constexpr BasePoint base_points[] = {{1e-3, 10.0}, {1e-2, 1e2}, {1.0 / 60.0, 1.3e3}, {1e-1, 1e4}, {1.0, 1e5}};
 
 void add_base(std::vector<StressCell>& cells) {
@@ -51,8 +51,8 @@ void change_mesh(int kind, StressCell& cell) {
     if (kind < 3) cell.aspect = aspects[static_cast<std::size_t>(kind)];
 }
 
-/// At rest and thrown; backward Euler by both responses with little and much damping, TR-BDF2, which takes one, with four
-/// amounts.
+/// Cloth starts at rest and thrown; backward Euler has both responses with little and much damping, TR-BDF2, which takes one
+/// response, has four amounts of damping.
 void change_contact(int kind, StressCell& cell) {
     const int second = kind % 2, damping = kind / 4;
     cell.start = kind % 4 < 2 ? StressStart::hang : StressStart::thrown;

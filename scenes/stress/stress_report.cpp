@@ -127,13 +127,13 @@ std::string stress_summary(const StressRun& run) {
 
 std::string stress_failures(const StressRun& run, int at_most) {
     std::string text;
-    int told = 0;
+    int reported = 0;
 
     for (const StressRow& row : run.rows) {
-        if (told == at_most) break;
+        if (reported == at_most) break;
         if (!is_failure(row.cell.scheme, row.verdict)) continue;
         text += "cell " + std::to_string(row.cell.number) + ": " + row_text(row, run.of_scene) + "\n";
-        ++told;
+        ++reported;
     }
     return text;
 }

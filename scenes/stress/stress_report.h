@@ -14,7 +14,7 @@ std::string stress_summary(const StressRun& run);
 /// One line for each of the first rows that failed, with what happened and its number for --cell; empty without any.
 std::string stress_failures(const StressRun& run, int at_most);
 
-/// One line a row with all figures, shares of energy as StressFigures has them.
+/// One line a row with all figures, fractions of energy as StressFigures has them.
 std::string stress_csv(const StressRun& run);
 
 /// One panel a scheme, time step against stiffness: of the default matrix its base sweep, with the limit of explicit schemes.

@@ -105,7 +105,7 @@ void StressWatch::look(const StepReport& report, const Simulation& simulation) {
     const double put_in = inner_ + handled_ + fallen_ + energy_rounding * seen;
     const double risen = energy.total() - start_ - work_ - unbalanced_;
     if (risen > 0.0) figures.gain = std::max(figures.gain, risen / put_in);
-    // What pins or seams move is not at v = 0 what it was at the start.
+    // Where pins or seams move, the potential at v = 0 is not that of the start.
     if (backward_euler_ && report.halvings == 0 && report.contacts == 0 && energy.work == 0.0) {
         const double excess = energy.total() - before_ - energy.work - step_bound(report, simulation);
         if (excess > 0.0) figures.step_excess = std::max(figures.step_excess, excess / put_in);

@@ -20,8 +20,8 @@ enum class StressVerdict {
 };
 const char* word_of(StressVerdict verdict);
 
-/// Figures of one run. Energies are in shares of the energy put in: kinetic and elastic at the start, work, and what gravity gave
-/// at most until then.
+/// Figures of one run. Energies are fractions of the energy put in: kinetic and elastic at the start, work, and the maximum that
+/// gravity gave until then.
 struct StressFigures {
     bool finite = true;
     bool pins_kept = true;     // to the bit
@@ -44,7 +44,7 @@ public:
     /// The simulation before its first step; it must report energies.
     StressWatch(const Simulation& simulation, std::span<const ClothId> cloths, std::span<const HeldVertex> held);
 
-    /// After each step, a failed one too.
+    /// To be called after each step, a failed one too.
     void look(const StepReport& report, const Simulation& simulation);
 
     StressFigures figures;
@@ -59,7 +59,7 @@ private:
     bool backward_euler_ = false;
     double start_ = 0.0, inner_ = 0.0, gravity_ = 0.0;  // J, at the start: total, kinetic and elastic, of gravity
     double before_ = 0.0;                               // J, total before the coming step
-    double work_ = 0.0, handled_ = 0.0, fallen_ = 0.0;  // J: work, its size, most that gravity gave
+    double work_ = 0.0, handled_ = 0.0, fallen_ = 0.0;  // J: work, its magnitude, maximum that gravity gave
     double unbalanced_ = 0.0;                           // J, size of the work of what backward Euler's solver left
     std::vector<std::vector<Vec3>> velocities_;         // m/s, before the coming step
 };

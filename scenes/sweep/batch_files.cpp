@@ -8,7 +8,7 @@ namespace percale::scenes {
 
 namespace {
 
-constexpr std::size_t most_tasks = 1000;  // one less than Slurm's own limit, MaxArraySize
+constexpr std::size_t max_tasks = 1000;  // one less than Slurm's own limit, MaxArraySize
 
 /// A word of a recipe: a dollar sign is make's own.
 std::string recipe_text(const std::string& text) {
@@ -26,7 +26,7 @@ std::string shell_word(const std::string& word) {
 }
 
 BatchFiles batch_files(const Study& study, const StudyFolder& folder, const std::string& program) {
-    const std::size_t runs = study.runs.size(), chunk = (runs + most_tasks - 1) / most_tasks, tasks = (runs + chunk - 1) / chunk;
+    const std::size_t runs = study.runs.size(), chunk = (runs + max_tasks - 1) / max_tasks, tasks = (runs + chunk - 1) / chunk;
     const std::string path = std::filesystem::absolute(folder.path()).lexically_normal().string();
     for (const std::string& name : {path, program})
         if (name.find('\n') != std::string::npos)

@@ -10,12 +10,12 @@ class Draws {
 public:
     explicit Draws(std::uint64_t seed) : engine_(seed) {}
 
-    /// In [0, 1), of 53 bits.
+    /// A uniform number in [0, 1) of 53 bits.
     double share();
     double uniform(double lowest, double highest) { return lowest + share() * (highest - lowest); }
-    /// Even in its logarithm; both > 0.
+    /// A number with a uniform logarithm; both > 0.
     double log_uniform(double lowest, double highest);
-    /// Box and Muller (1958).
+    /// A number of the normal distribution (Box and Muller 1958).
     double normal(double mean, double deviation);
 
 private:

@@ -58,7 +58,7 @@ Variation range_of(const TomlNode& node) {
         if (std::ranges::find(range_forms, entry.key) == range_forms.end()) fail_unknown(entry, "a range", range_forms);
     const double from = number_at(node, "from"), to = number_at(node, "to");
     number_at(node, "count");
-    const long count = whole_number(*node.find("count"), "count", 2, most_runs);
+    const long count = whole_number(*node.find("count"), "count", 2, max_runs);
     const TomlNode* scale = node.find("scale");
     const bool log = scale != nullptr && scale->text == "log";
     if (scale != nullptr && !log && scale->text != "linear") fail_at(scale->place, "scale must be \"linear\" or \"log\"");
@@ -113,8 +113,8 @@ void expand(Study& study, const std::vector<Variation>& variations, long draws, 
     for (const Variation& variation : variations) {
         if (variation.draw) continue;
         count *= variation.values.size();
-        if (count > most_runs)
-            throw SceneError(study.file + ": more than " + std::to_string(most_runs) +
+        if (count > max_runs)
+            throw SceneError(study.file + ": more than " + std::to_string(max_runs) +
                              " runs, which is the most that a study may have");
     }
     Draws random(first);
@@ -164,7 +164,7 @@ void choose_plot(Study& study, const TomlNode* node) {
         fail_at(node->place, "plot: no measure '" + study.plot_measure + "'" + suggestion(study.plot_measure, measures));
 }
 
-/// The first run whose scene is refused tells why.
+/// Throws the error of the first run whose scene is refused.
 void check_runs(const Study& study, const TomlNode& vary) {
     for (std::size_t run = 0; run < study.runs.size(); ++run) {
         try {
@@ -197,7 +197,7 @@ Study read_study(const std::string& file) {
     const bool random = std::ranges::any_of(variations, [](const Variation& variation) { return bool(variation.draw); });
     for (const TomlNode* node : {draws, first})
         if (node != nullptr && !random) fail_at(node->key_place, node->key + " is for random values, and [vary] has none");
-    expand(study, variations, draws != nullptr ? whole_number(*draws, "draws", 1, most_runs) : 1,
+    expand(study, variations, draws != nullptr ? whole_number(*draws, "draws", 1, max_runs) : 1,
            static_cast<std::uint64_t>(first != nullptr ? whole_number(*first, "seed", 0, 1L << 53) : 0));
     check_runs(study, *vary);
     choose_plot(study, document.find("plot"));

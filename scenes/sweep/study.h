@@ -27,7 +27,7 @@ struct Study {
 };
 
 /// Runs of one study.
-inline constexpr std::size_t most_runs = 1000000;
+inline constexpr std::size_t max_runs = 1000000;
 
 /// Reads a study file and has every run's scene checked. Throws SceneError with file, line and column: what is no study, and, for
 /// the first run whose scene is refused, why.
@@ -38,7 +38,7 @@ std::vector<Override> overrides_of(const Study& study, std::size_t run);
 
 /// The study as it is kept in the folder of its runs, with the settings of its scene: what has another text is another study.
 std::string study_text(const Study& study);
-/// Back; throws SceneError naming the file for what study_text has not written.
+/// Reads it back; throws SceneError naming the file for what study_text has not written.
 Study stored_study(const std::string& file);
 
 }  // namespace percale::scenes

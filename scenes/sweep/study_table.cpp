@@ -59,17 +59,17 @@ std::string line_of(const Study& study, std::size_t run, const Report& report) {
     return line + "," + (report.is_object() ? std::to_string(expected.all) + "," + std::to_string(expected.passed) : ",") + "\n";
 }
 
-/// Points of the plot: of one series those runs whose other values are equal, as far as they are not drawn.
+/// Points of the plot. The first other key with 2 ... 12 values makes a series for each of them; without one there is one series.
 class StudyPlot {
 public:
     explicit StudyPlot(const Study& study) : study_(study) {
         for (std::size_t k = 0; k < study.keys.size(); ++k) {
             std::vector<std::string> values;
             for (const auto& run : study.runs)
-                if (std::ranges::find(values, run[k]) == values.end() && values.size() <= most_series) values.push_back(run[k]);
+                if (std::ranges::find(values, run[k]) == values.end() && values.size() <= max_series) values.push_back(run[k]);
             if (study.keys[k] == study.plot_key)
                 x_ = k;
-            else if (values.size() > 1 && values.size() <= most_series && series_key_ == study.keys.size())
+            else if (values.size() > 1 && values.size() <= max_series && series_key_ == study.keys.size())
                 series_key_ = k;
         }
     }
@@ -95,7 +95,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t most_series = 12;
+    static constexpr std::size_t max_series = 12;
     const Study& study_;
     std::size_t x_ = 0, series_key_ = study_.keys.size();
     std::map<std::string, std::vector<PlotPoint>> series_;

@@ -33,7 +33,7 @@ std::vector<std::string> words_of(const Study& study, const StudyFolder& folder,
     return words;
 }
 
-/// In the new process: becomes the run. Only what is safe after a fork.
+/// Turns the new process into the run; does only what is safe after a fork.
 [[noreturn]] void become(std::vector<char*>& words, int log) {
 #ifdef __linux__
     prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -59,7 +59,7 @@ pid_t start(const Study& study, const StudyFolder& folder, std::size_t run, cons
     return child;
 }
 
-/// A log of nothing is none.
+/// Removes a log that is empty.
 void drop_empty_log(const std::string& file) {
     std::error_code error;
     if (std::filesystem::file_size(file, error) == 0 && !error) std::filesystem::remove(file, error);

@@ -14,7 +14,7 @@
 namespace percale::test {
 namespace {
 
-/// What /proc/cpuinfo calls the first processor.
+/// The name of the first processor in /proc/cpuinfo.
 std::string processor() {
     std::ifstream file("/proc/cpuinfo");
     for (std::string line; std::getline(file, line);) {
@@ -26,13 +26,13 @@ std::string processor() {
 
 std::string compiler() {
 #ifdef __clang__
-    return __VERSION__;  // says "Clang" itself
+    return __VERSION__;  // contains "Clang" itself
 #else
     return "g++ " __VERSION__;
 #endif
 }
 
-/// Files that are asked for; empty: none.
+/// Requested output files; empty: none.
 struct WantedFiles {
     std::string json, table;
 };
@@ -44,7 +44,7 @@ std::string command_line(int argc, char** argv) {
     return text;
 }
 
-/// The file is begun before hours of measuring, so that one that cannot be written is known at once.
+/// Begins the file before hours of measuring, so that one that cannot be written is known at once.
 void begin(std::optional<scenes::WholeFile>& whole, const std::string& file) {
     if (!file.empty()) whole.emplace(file);
 }

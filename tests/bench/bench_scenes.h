@@ -6,12 +6,12 @@
 
 namespace percale::test {
 
-/// A sheet of 1 m with n x n vertices, `height` m above the origin, to fall on `body`; without a body it hangs from two corners.
-/// `deforming`: the body's vertices may move one by one.
+/// A sheet of 1 m with n x n vertices, `height` m above the origin, that falls on `body`; without a body it hangs from two
+/// corners. `deforming`: the body's vertices may move one by one.
 Simulation make_sheet_scene(int n, const TriangleMesh* body, double height, const StepSettings& settings = {},
                             bool deforming = false);
 
-/// Of all kinds of work together, s.
+/// Time of all kinds of work together, s.
 double total(const StageTimes& stages);
 
 /// Whether a sheet crosses a body or is inside of it.

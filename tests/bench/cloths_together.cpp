@@ -1,5 +1,5 @@
-// Prints what cloths cost in one simulation beside as many simulations of one cloth each: sheets that fall on a sphere each, all
-// out of reach of each other, frame by frame in turn.
+// Prints the cost of cloths in one simulation beside as many simulations of one cloth each: sheets that fall on a sphere each,
+// too far apart to meet each other, frame by frame in turn.
 #include <cstdio>
 #include <stdexcept>
 #include <vector>
@@ -23,13 +23,13 @@ void add_draped_sheet(Simulation& simulation, int number, const Wanted& wanted, 
     percale::Fabric fabric = percale::test::bench_fabric();
     fabric.thickness = 0.005;
     fabric.self_contact = self_contact;
-    const double x = 3.0 * number, off = 0.01 * (number % 10);  // each falls in its own way
+    const double x = 3.0 * number, off = 0.01 * (number % 10);  // each falls differently
     simulation.add_cloth(percale::make_grid(0.8, 0.8, wanted.count, wanted.count), fabric,
                          {.translation = {x + off, 0.32 + off, 0.3 * off}});
     simulation.add_obstacle(percale::make_sphere(0.3, 4), {.translation = {x, 0, 0}}, {.friction = 0.4});
 }
 
-/// What some simulations cost together.
+/// Total cost of some simulations.
 class Total {
 public:
     void step(Simulation& simulation) {

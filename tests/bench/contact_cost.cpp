@@ -1,4 +1,4 @@
-// Prints what contact search costs by part, in force evaluations F of the same cloth in the same run: a sheet of 101 x 101
+// Prints the cost of the contact search by part, in force evaluations F of the same cloth in the same run: a sheet of 101 x 101
 // vertices far from the bunny scan, draped over it, and snug around it with every vertex within 10 mm. Beside each stands the
 // target, where there is one.
 #include <algorithm>
@@ -20,7 +20,7 @@
 
 namespace {
 
-using percale::ContactRows;
+using percale::ContactConstraints;
 using percale::Vec3;
 using percale::test::Figures;
 using Positions = std::vector<Vec3>;
@@ -58,7 +58,7 @@ private:
     percale::Compute compute_{.kernels = &percale::best_kernels()};
     percale::ClothModel model_;
     percale::StepSprings springs_;
-    percale::Vectors positions_, velocities_;
+    percale::Vec3Arrays positions_, velocities_;
     percale::Forces forces_;
 };
 
@@ -96,7 +96,7 @@ Positions shifted(const Positions& x, double size, double every = 0.0) {
 /// Seconds of each part at one place of the cloth.
 struct Parts {
     double force = 0.0, kept = 0.0, rebuild = 0.0, first = 0.0, evaluate = 0.0, cut = 0.0;
-    std::size_t rows = 0;
+    std::size_t constraints = 0;
 };
 
 Parts measure_parts(const percale::TriangleMesh& scan, const Positions& x, int rounds) {
@@ -105,18 +105,19 @@ Parts measure_parts(const percale::TriangleMesh& scan, const Positions& x, int r
     const percale::TriangleMesh sheet = percale::make_grid(1.0, 1.0, side, side);
     detector->set_cloth(sheet.triangles, std::vector<double>(x.size(), thickness));
     detector->add_obstacle(scan, {}, 0.3);
-    // A hundredth of a millimetre is what a Newton iteration near its end moves; 2 cm leaves every box.
+    // A hundredth of a millimetre is the move of a late Newton iteration; 2 cm leaves every box.
     const Positions near = shifted(x, 1e-5), away = shifted(x, 0.0, 0.02);
-    ContactRows rows;
+    ContactConstraints constraints;
     Parts parts;
-    const std::vector<double> seconds = percale::test::least_seconds(
-        rounds, {[&] { forces.evaluate(); }, [&] { detector->refresh(away, away); }, [&] { detector->refresh(x, near); },
-                 [&] { detector->evaluate(near, 1.0, rows); }, [&] { detector->refresh(x, near); },
-                 [&] { detector->evaluate(x, 1.0, rows); }, [&] { detector->evaluate(near, 1.0, rows); },
+    const std::vector<double> seconds = percale::test::min_seconds(
+        rounds, {[&] { forces.evaluate(); }, [&] { detector->update_candidates(away, away); },
+                 [&] { detector->update_candidates(x, near); }, [&] { detector->find_contacts(near, 1.0, constraints); },
+                 [&] { detector->update_candidates(x, near); }, [&] { detector->find_contacts(x, 1.0, constraints); },
+                 [&] { detector->find_contacts(near, 1.0, constraints); },
                  [&] {
-                     detector->largest_safe_fraction(near, x, {1.0, 1.0});
+                     detector->collision_free_step_size(near, x, {1.0, 1.0});
                  }});
-    parts.rows = rows.size();
+    parts.constraints = constraints.size();
     parts.force = seconds[0];
     parts.rebuild = seconds[2];
     parts.first = seconds[3];
@@ -133,13 +134,14 @@ struct Target {
 
 Figures report(const Target& target, const Parts& parts) {
     const double unit = parts.force;
-    Figures rows = Figures::array();
+    Figures constraints = Figures::array();
     const auto line = [&](const char* part, double seconds, double limit) {
         std::printf("%-7s %-18s %9.3f %9.2f", target.state, part, 1e3 * seconds, seconds / unit);
         if (limit > 0.0) std::printf(" %9.2f", limit);
         std::printf("\n");
-        rows.push_back({{"state", target.state}, {"part", part}, {"ms", 1e3 * seconds}, {"force_evaluations", seconds / unit}});
-        if (limit > 0.0) rows.back()["target"] = limit;
+        constraints.push_back(
+            {{"state", target.state}, {"part", part}, {"ms", 1e3 * seconds}, {"force_evaluations", seconds / unit}});
+        if (limit > 0.0) constraints.back()["target"] = limit;
     };
     line("force evaluation", unit, 0.0);
     line("lists kept", parts.kept, target.kept);
@@ -147,8 +149,8 @@ Figures report(const Target& target, const Parts& parts) {
     line("first evaluation", parts.first, 0.0);
     line("evaluation", parts.evaluate, target.evaluate);
     line("cut", parts.cut, target.kept);
-    std::printf("%-7s %-18s %9zu\n", target.state, "contacts", parts.rows);
-    return rows;
+    std::printf("%-7s %-18s %9zu\n", target.state, "contacts", parts.constraints);
+    return constraints;
 }
 
 Figures measure(int rounds) {
@@ -162,7 +164,8 @@ Figures measure(int rounds) {
     const Positions places[] = {shifted(rest, 0.0, 2.0), rest, snug(rest, scan)};
     Figures all = Figures::array();
     for (int i = 0; i < 3; ++i) {
-        for (Figures& row : report(targets[i], measure_parts(scan, places[i], rounds))) all.push_back(std::move(row));
+        for (Figures& constraint : report(targets[i], measure_parts(scan, places[i], rounds)))
+            all.push_back(std::move(constraint));
     }
     return all;
 }

@@ -1,6 +1,6 @@
 // Error against CPU time with contact: several scenes, steps and stopping rules of the solver, each from several disturbed
-// starts, so that what is left is no accident of one run. The observables of an ensemble are compared with those of the finest
-// step.
+// starts, so that the remaining error does not depend on one run. The observables of an ensemble are compared with those of the
+// finest step.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,13 +33,13 @@ using test::Figures;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int frames_per_second = 30;
 
-/// What is looked at in each frame; SI units.
+/// The observables of each frame; SI units.
 constexpr int observable_count = 6;
 constexpr const char* observable_names[observable_count] = {"height", "lowest", "aside", "kinetic", "elastic", "force"};
 using Observables = std::array<double, observable_count>;
 using Placement = Eigen::Isometry3d;
 
-/// How a solver is asked to stop.
+/// A stopping rule of the solver.
 struct Rule {
     std::string name;
     Scheme scheme = Scheme::backward_euler;
@@ -47,14 +47,14 @@ struct Rule {
     int iterations = 50;
 };
 
-/// A scene of the table: what it is made of but step and rule.
+/// A scene of the table, without step and rule.
 struct SceneKind {
     std::string name;
     double seconds = 1.0;
     std::function<Simulation(int n, const StepSettings& settings, const Placement& disturbed)> make;
 };
 
-/// The mean over an ensemble in each frame, its standard error, and what it cost.
+/// The mean over an ensemble in each frame, its standard error, and its cost.
 struct Ensemble {
     std::vector<Observables> mean, deviation;
     double cpu_s = 0.0, largest_strain = 0.0, weight = 0.0;  // s, of structural springs in the frames, N
@@ -91,7 +91,7 @@ Simulation make_drop(int n, const TriangleMesh& body, const StepSettings& settin
     return make_scene(placed(make_grid(1.0, 1.0, n, n), disturbed * moved(0.0, 0.45, 0.0)), test::bench_fabric(), body, settings);
 }
 
-/// Laid just above a slope of 25 degrees, with a friction of 0.3: it slides.
+/// A sheet laid just above a slope of 25 degrees, with a friction of 0.3: it slides.
 Simulation make_slide(int n, const StepSettings& settings, const Placement& disturbed) {
     const Placement slope = turned(-25.0 * std::numbers::pi / 180.0, Vec3::UnitZ());
     const Vec3 offset = disturbed.translation();
@@ -106,7 +106,7 @@ Simulation make_poncho_scene(int n, const StepSettings& settings, const Placemen
     return make_scene(placed(poncho, moved(0.0, 1.53, 0.0) * disturbed), felt, body, settings);
 }
 
-/// Let down onto the floor, where it folds on itself.
+/// A sheet lowered onto the floor, where it folds on itself.
 Simulation make_fold(int n, const StepSettings& settings, const Placement& disturbed) {
     Fabric fabric = test::bench_fabric();
     fabric.self_contact = true;
@@ -162,7 +162,7 @@ struct Task {
 void run_one(const Task& task, int start, std::vector<Observables>& frames, Ensemble& ensemble) {
     const StepSettings settings{.time_step = 1.0 / task.steps_per_second,
                                 .scheme = task.rule.scheme,
-                                .newton_share = task.rule.share,
+                                .newton_error_ratio = task.rule.share,
                                 .newton_iterations = task.rule.iterations,
                                 .measure = StepMeasures::none};
     Simulation simulation = task.kind->make(task.n, settings, disturbed_start(start));
@@ -223,7 +223,7 @@ double range_of(const Ensemble& ensemble, int observable) {
     return high - low;
 }
 
-/// What errors are measured in: the farthest way of a length, the range of the kinetic energy, the weight.
+/// The scales of the errors: the largest displacement of a length, the range of the kinetic energy, the weight.
 Observables scales_of(const Ensemble& reference) {
     const double length = std::max({range_of(reference, 0), range_of(reference, 1), range_of(reference, 2)});
     const double energy = range_of(reference, 3);
@@ -281,7 +281,7 @@ std::vector<Rule> rules_of(const Options& options) {
     return rules;
 }
 
-/// No other row of the scene is both cheaper and closer.
+/// Marks rows where no other row of the scene is both cheaper and closer.
 void mark_front(std::vector<Figures>& rows) {
     for (Figures& row : rows) {
         const auto beats = [&](const Figures& other) {
@@ -308,7 +308,7 @@ Figures row_of(const Task& task, const Ensemble& run, const Ensemble& reference,
     return row;
 }
 
-/// Of the rows of one size: a line for each scene and rule, a point for each step.
+/// For the rows of one size: a line for each scene and rule, a point for each step.
 scenes::Plot plot_of(const Figures& rows, int n) {
     scenes::Plot plot{.title = "scenes with contact, sheets of " + std::to_string(n) + " vertices a side",
                       .x_label = "CPU time of 1 s, s",

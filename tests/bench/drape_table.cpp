@@ -49,7 +49,7 @@ struct Case {
     int n = 0;
 };
 
-/// What came of a run.
+/// The result of a run.
 struct Drape {
     int steps = 0, frames = 0, bad = 0;
     std::optional<double> rest_at;  // s

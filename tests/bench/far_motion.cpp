@@ -1,4 +1,4 @@
-// Prints what a jump costs: the mannequin under its settled poncho, and two pins of the poncho with it, moved far in one step;
+// Prints the cost of a jump: the mannequin under its settled poncho, and two pins of the poncho with it, moved far in one step;
 // the same by teleport; and the step after either.
 #include <algorithm>
 #include <cstdio>
@@ -37,7 +37,7 @@ public:
     ClothId cloth() const { return built_.cloths[0]; }
     void rewind() { simulation().restore(state_); }
 
-    /// The next step leads the body and the pins there.
+    /// The next step moves the body and the pins there.
     void aim(const Vec3& by) {
         Pose pose = simulation().obstacle_pose(built_.obstacles[0]);
         pose.translation += by;

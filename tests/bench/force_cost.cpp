@@ -1,8 +1,8 @@
-// Prints what one evaluation of all forces costs on a sheet of N x N vertices: by the plain loop over an array of spring structs
-// (the machine unit U), by the engine without and with the terms of the step matrix, and for the product with that matrix in
-// double and in single precision; each with every instruction set, for springs in slices and, where the engine would put them
-// there, in bands.
-// Beside each stands the time in which memory of the same size can be read and written at all, by a triad in the same run.
+// Prints the cost of one evaluation of all forces on a sheet of N x N vertices: by the plain loop over an array of spring
+// structs (the machine unit U), by the engine without and with the terms of the step matrix, and for the product with that
+// matrix in double and in single precision; each with every instruction set, for springs in slices and, where the engine would
+// put them there, in bands. Beside each stands the time in which memory of the same size can be read and written at all, by a
+// triad in the same run.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -22,10 +22,10 @@ namespace {
 
 using percale::AlignedVector;
 using percale::SpringLayout;
-using percale::Vectors;
+using percale::Vec3Arrays;
 using percale::test::Figures;
 
-// The bound is to be that of memory, not that of narrow instructions.
+// The bound is that of memory, not that of narrow instructions.
 #if defined(__x86_64__) && defined(__linux__)
 #define PERCALE_WIDEST __attribute__((target_clones("default", "avx2", "avx512f")))
 #else
@@ -53,7 +53,7 @@ double bytes_of(const Lists&... lists) {
     return (0.0 + ... + static_cast<double>(lists.size() * sizeof(lists[0])));
 }
 
-double bytes_of_vectors(const Vectors& v) { return bytes_of(v.x, v.y, v.z); }
+double bytes_of_vectors(const Vec3Arrays& v) { return bytes_of(v.x, v.y, v.z); }
 
 /// The engine's side: a stretched moving sheet with everything one evaluation and one product need.
 class EngineSheet {
@@ -89,7 +89,7 @@ public:
     void multiply() { percale::multiply(matrix_, velocities_, points_, product_); }
     void multiply_floats() { multigrid_->multiply(float_velocities_, float_product_); }
 
-    /// What one evaluation reads and writes at least once; the constants stand once a place of the layout.
+    /// Bytes that one evaluation must read and write; the constants stand once a place of the layout.
     double force_bytes(bool with_matrix) const {
         const double places = with_matrix ? bytes_of(forces_.spring_terms.values) : 0.0;
         return places + layout_bytes() + 2 * constant_bytes() + bytes_of(model_.mass, forces_.spring_terms.points) +
@@ -137,7 +137,7 @@ private:
 
     percale::Compute compute_;
     percale::ClothModel model_;
-    Vectors positions_, velocities_, product_;
+    Vec3Arrays positions_, velocities_, product_;
     percale::StepSprings springs_;
     percale::Forces forces_;
     percale::BlockMatrix matrix_;
@@ -160,9 +160,9 @@ void add_items(EngineSheet& sheet, const std::string& set, const std::string& la
     items.push_back({set, layout, "product f32", [&sheet] { sheet.multiply_floats(); }, sheet.float_product_bytes()});
 }
 
-constexpr int passes = 5;  // in a row, so that what fits into a cache is found there, as in a solve
+constexpr int passes = 5;  // one after the other, so that the caches hold what fits into them, as in a solve
 
-/// The least time of each item, then of a triad over as many bytes, s.
+/// The shortest time of each item, then of a triad over as many bytes, s.
 std::vector<double> time_items(const std::vector<Item>& items, int rounds) {
     std::vector<Triad> triads;
     for (const Item& item : items) triads.emplace_back(item.bytes);
@@ -174,7 +174,7 @@ std::vector<double> time_items(const std::vector<Item>& items, int rounds) {
     };
     for (const Item& item : items) add([&item] { item.call(); });
     for (Triad& triad : triads) add([&triad] { triad.run(); });
-    std::vector<double> seconds = percale::test::least_seconds(rounds, calls);
+    std::vector<double> seconds = percale::test::min_seconds(rounds, calls);
     for (double& time : seconds) time /= passes;
     for (const Triad& triad : triads) {
         if (!triad.is_right()) throw std::runtime_error("the triad gave a wrong number");
@@ -199,7 +199,7 @@ Figures row(int n, const Item& item, double seconds, double unit, double triad) 
             {"times_bound", seconds / triad}};
 }
 
-/// Everything with one instruction set. The plain loop is in each run of the clock, so each has its own unit.
+/// Measures everything with one instruction set. The plain loop is in each run of the clock, so each has its own unit.
 void measure_set(int n, const percale::Kernels* kernels, int rounds, Figures& rows) {
     const std::string set = percale::instruction_set_name(kernels->set);
     percale::test::PlainSheet plain(n);

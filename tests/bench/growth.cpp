@@ -24,7 +24,7 @@ using percale::TriangleMesh;
 using percale::Vec3;
 using percale::test::Figures;
 
-/// What one size costs; crosses from the child to its parent as bytes.
+/// The cost of one size; the child passes it to its parent as bytes.
 struct Cost {
     double vertices = 0.0, ms = 0.0, least_ms = 0.0, prepare_ms = 0.0, newton = 0.0, linear = 0.0, bytes = 0.0;
     percale::StepStatus status = percale::StepStatus::ok;
@@ -51,7 +51,7 @@ TriangleMesh mesh_of(const std::string& kind, int n) {
     return percale::make_grid(1.0, 1.0, n, n);
 }
 
-/// A sheet by two corners, a garment by the two vertices nearest to the ends of its upper edge.
+/// A sheet held by two corners, or a garment held by the two vertices nearest to the ends of its upper edge.
 percale::Simulation make_scene(const MeshChoice& choice, int n) {
     TriangleMesh mesh = mesh_of(choice.kind, n);
     if (choice.shuffle) mesh = percale::test::shuffled(mesh);

@@ -1,7 +1,7 @@
-// Prints what one linear solve costs on systems as they come up in steps of 1/60 s, on grids and on free meshes: multigrid and
-// block Jacobi of the engine beside Eigen's simplicial Cholesky factorisation and Eigen's conjugate gradient (CHOLMOD's
-// supernodal factorisation too where it was found). All get the same matrix and right side; the residual is that of the engine's
-// product in double precision, whoever solved.
+// Prints the cost of one linear solve on systems of steps of 1/60 s, on grids and on free meshes: multigrid and block Jacobi of
+// the engine beside Eigen's simplicial Cholesky factorisation and Eigen's conjugate gradient (CHOLMOD's supernodal factorisation
+// too where it was found). All get the same matrix and right side; the residual is that of the engine's product in double
+// precision for every solver.
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCholesky>
 #ifdef PERCALE_HAS_CHOLMOD
@@ -25,7 +25,7 @@
 namespace {
 
 using percale::Vec3;
-using percale::Vectors;
+using percale::Vec3Arrays;
 using percale::test::Figures;
 using Sparse = Eigen::SparseMatrix<double>;
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;  // Eigen's product is fastest by rows
@@ -94,8 +94,8 @@ public:
     System(const System&) = delete;
     System& operator=(const System&) = delete;
 
-    double relative_residual(const Vectors& x) const {
-        Vectors product = x, rest = right;
+    double relative_residual(const Vec3Arrays& x) const {
+        Vec3Arrays product = x, rest = right;
         percale::AlignedVector<double> points;
         percale::multiply(matrix, x, points, product);
         percale::add_scaled(rest, -1.0, product);
@@ -107,7 +107,7 @@ public:
     percale::ClothModel model;
     percale::Forces forces;
     percale::AlignedVector<double> free;
-    Vectors right;
+    Vec3Arrays right;
     percale::BlockMatrix matrix;
 
 private:
@@ -125,7 +125,7 @@ private:
                                  forces);
     }
 
-    Vectors positions_, velocities_;
+    Vec3Arrays positions_, velocities_;
     percale::StepSprings springs_;
 };
 
@@ -151,8 +151,8 @@ struct EigenSystem {
         }
     }
 
-    Vectors to_vertices(const Eigen::VectorXd& x) const {
-        Vectors result;
+    Vec3Arrays to_vertices(const Eigen::VectorXd& x) const {
+        Vec3Arrays result;
         result.resize(static_cast<int>(row.size()));
         for (std::size_t i = 0; i < row.size(); ++i) {
             if (row[i] >= 0) result.set(static_cast<int>(i), x.segment<3>(row[i]));
@@ -184,15 +184,15 @@ private:
     }
 };
 
-/// Milliseconds of `work`: the least of several runs, of one where that takes long.
+/// Milliseconds of `work`: the minimum of several runs, or of one run where that takes long.
 double least_ms(const std::function<void()>& work) {
-    double least = percale::test::least_seconds(1, {work})[0];
+    double least = percale::test::min_seconds(1, {work})[0];
     const int more = least > 1.0 ? 0 : std::clamp(static_cast<int>(0.3 / least), 2, 100);
-    if (more > 0) least = std::min(least, percale::test::least_seconds(more, {work})[0]);
+    if (more > 0) least = std::min(least, percale::test::min_seconds(more, {work})[0]);
     return 1e3 * least;
 }
 
-/// What one solver took.
+/// The cost of one solver.
 struct Cost {
     std::string solver;
     double setup = 0.0;  // ms, once a mesh
@@ -204,7 +204,7 @@ struct Cost {
     double total() const { return fill + solve; }
 };
 
-/// Ours; every fill makes the coarser levels anew, as the first of a step does.
+/// Cost of the engine's solver; every fill makes the coarser levels anew, as the first of a step does.
 Cost measure_ours(const System& system, percale::LinearSolver choice) {
     percale::StepSolver solver;
     const auto fill = [&] {
@@ -212,14 +212,14 @@ Cost measure_ours(const System& system, percale::LinearSolver choice) {
         solver.fill(system.forces.spring_terms, {});
     };
     Cost cost{.solver = choice == percale::LinearSolver::cg ? "block Jacobi" : "multigrid"};
-    const double first = 1e3 * percale::test::least_seconds(1, {[&] {
-                                                                solver.set_model(system.compute, system.model, choice);
-                                                                solver.matrix.free = system.free;
-                                                                fill();
-                                                            }})[0];
+    const double first = 1e3 * percale::test::min_seconds(1, {[&] {
+                                                              solver.set_model(system.compute, system.model, choice);
+                                                              solver.matrix.free = system.free;
+                                                              fill();
+                                                          }})[0];
     cost.fill = least_ms(fill);
     cost.setup = std::max(0.0, first - cost.fill);
-    Vectors x;
+    Vec3Arrays x;
     percale::SolveReport report;
     cost.solve = least_ms([&] {
         x.resize(system.model.vertex_count());
@@ -230,13 +230,12 @@ Cost measure_ours(const System& system, percale::LinearSolver choice) {
     return cost;
 }
 
-/// A factorisation: its analysis is setup, the numbers are fill. What it takes to write the values into Eigen's matrix is not
-/// counted.
+/// A factorisation: its analysis is setup, the numbers are fill. Writing the values into Eigen's matrix is not counted.
 template <class Factorisation>
 Cost measure_direct(const System& system, const EigenSystem& eigen, const char* name) {
     Factorisation factorisation;
     Cost cost{.solver = name, .iterations = 1};
-    cost.setup = 1e3 * percale::test::least_seconds(1, {[&] { factorisation.analyzePattern(eigen.matrix); }})[0];
+    cost.setup = 1e3 * percale::test::min_seconds(1, {[&] { factorisation.analyzePattern(eigen.matrix); }})[0];
     cost.fill = least_ms([&] { factorisation.factorize(eigen.matrix); });
     if (factorisation.info() != Eigen::Success) throw std::runtime_error(std::string(name) + " failed");
     Eigen::VectorXd x;
@@ -258,12 +257,12 @@ Cost measure_eigen_cg(const System& system, const EigenSystem& eigen) {
     return cost;
 }
 
-std::vector<Cost> measure_all(const System& system, int most_direct) {
+std::vector<Cost> measure_all(const System& system, int max_direct) {
     std::vector<Cost> costs = {measure_ours(system, percale::LinearSolver::multigrid),
                                measure_ours(system, percale::LinearSolver::cg)};
     const EigenSystem eigen(system);
     costs.push_back(measure_eigen_cg(system, eigen));
-    if (system.model.vertex_count() > most_direct) return costs;
+    if (system.model.vertex_count() > max_direct) return costs;
     costs.push_back(measure_direct<Eigen::SimplicialLDLT<Sparse>>(system, eigen, "Eigen LDLT"));
 #ifdef PERCALE_HAS_CHOLMOD
     costs.push_back(measure_direct<Eigen::CholmodSupernodalLLT<Sparse>>(system, eigen, "CHOLMOD"));
@@ -281,23 +280,23 @@ Figures row(const System& system, const Cost& cost, const Cost& ours) {
             {"iterations", cost.iterations}, {"residual", cost.residual}, {"times_multigrid", ratio}};
 }
 
-void measure_scene(const Scene& scene, int most_direct, Figures& rows) {
+void measure_scene(const Scene& scene, int max_direct, Figures& rows) {
     const System system(scene);
-    const std::vector<Cost> costs = measure_all(system, most_direct);
+    const std::vector<Cost> costs = measure_all(system, max_direct);
     for (const Cost& cost : costs) rows.push_back(row(system, cost, costs[0]));
     std::fflush(stdout);
 }
 
-Figures measure(int largest, int most_vertices, int most_direct) {
+Figures measure(int largest, int max_vertices, int max_direct) {
     std::printf("%-9s %8s  %-12s %9s %9s %9s %6s %9s %8s\n", "mesh", "vertices", "solver", "setup ms", "fill ms", "solve ms",
                 "iter", "residual", "times");
     Figures rows = Figures::array();
     for (const int n : {33, 65, 129, 257}) {
-        if (n <= largest) measure_scene(hanging_grid(n), most_direct, rows);
+        if (n <= largest) measure_scene(hanging_grid(n), max_direct, rows);
     }
     for (const char* kind : {"irregular", "shirt", "skirt"}) {
         for (const int vertices : {1000, 4000, 16000}) {
-            if (vertices <= most_vertices) measure_scene(falling_mesh(kind, vertices), most_direct, rows);
+            if (vertices <= max_vertices) measure_scene(falling_mesh(kind, vertices), max_direct, rows);
         }
     }
     return rows;

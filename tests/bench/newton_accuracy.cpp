@@ -1,6 +1,6 @@
 // Prints how near a step with default settings comes to the solution of its equations, and in how many iterations: from the same
-// state the step is done once more with newton_tolerance = 1e-8, and the distance of the two results is set against the error
-// that backward Euler makes in that step anyway, about dt/2 |v_new - v_old|.
+// state the step is made once more with newton_tolerance = 1e-8, and the distance of the two results is compared with the error
+// of backward Euler in that step, about dt/2 |v_new - v_old|.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -32,7 +32,7 @@ double distance(std::span<const Vec3> a, std::span<const Vec3> b, std::span<cons
     return std::sqrt(sum / mass);
 }
 
-/// Mean and largest of a number of values, and when the largest was, s.
+/// Mean and largest of a number of values, and the time of the largest, s.
 struct Spread {
     double sum = 0.0, worst = 0.0, worst_at = 0.0;
     int count = 0;
@@ -48,9 +48,9 @@ struct Spread {
 
 struct Accuracy {
     Spread newton, linear;           // of every step
-    Spread reference_newton;         // of the steps done once more
-    Spread distance, share;          // m; of the time error
-    int split = 0, unconverged = 0;  // left out: the step was halved; its twin was, or did not get to 1e-8
+    Spread reference_newton;         // of the repeated steps
+    Spread distance, share;          // m; ratio to the time error
+    int split = 0, unconverged = 0;  // left out: the step was halved; its twin was, or did not reach 1e-8
 };
 
 std::vector<Vec3> copy(std::span<const Vec3> values) { return {values.begin(), values.end()}; }
@@ -58,7 +58,7 @@ std::vector<Vec3> copy(std::span<const Vec3> values) { return {values.begin(), v
 /// One step of `simulation`, and of its twin from the same state.
 StepReport compare_step(Simulation& simulation, Simulation& twin, Accuracy& accuracy) {
     const std::vector<Vec3> positions = copy(simulation.positions(cloth)), before = copy(simulation.velocities(cloth));
-    // Both start with nothing held by friction, which only a simulation itself knows.
+    // Both start without stick anchors, which are internal to a simulation.
     for (Simulation* one : {&simulation, &twin}) one->set_positions(cloth, positions);
     twin.set_velocities(cloth, before);
     const StepReport report = simulation.step(), reference = twin.step();
@@ -91,7 +91,7 @@ Accuracy run(Simulation& simulation, Simulation& twin, int steps, int every) {
     return accuracy;
 }
 
-/// How long and how closely is looked.
+/// Duration and frequency of the measurements.
 struct Wish {
     double seconds = 2.0;
     int every = 10;

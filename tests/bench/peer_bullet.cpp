@@ -25,7 +25,7 @@ using percale::test::Figures;
 constexpr double frame = 1.0 / 60.0;  // s
 constexpr double torn = 1.0;          // strain
 
-/// What one engine's run has cost and come to so far.
+/// Cost and results of one engine's run so far.
 struct Run {
     double dt = frame;
     std::function<void()> step;
@@ -54,7 +54,7 @@ void advance(Run& run) {
     run.strain = std::max(run.strain, run.largest_strain());
 }
 
-/// A repeated run counts with the faster of each step.
+/// A repeated run counts with the faster time of each step.
 void keep_faster(const Run& again, Run& kept) {
     const std::vector<double> before = std::exchange(kept.seconds, again.seconds);
     kept.strain = again.strain;

@@ -1,4 +1,4 @@
-// Prints what a 1/60 s step of three scenes costs beside another engine's, in turns on one thread: a sheet that hangs from two
+// Prints the cost of a 1/60 s step of three scenes beside another engine's, in turns on one thread: a sheet that hangs from two
 // corners, that falls onto a sphere, and onto the bunny scan, if there is one. The other engine is any program that is called
 //     PROGRAM hang|sphere|bunny N 1/60 SECONDS OUT.obj
 // with the obstacle's OBJ file named by the environment variable OBST, that writes 30 frames a second, OUT.frames/f0001.obj and
@@ -39,7 +39,7 @@ struct Place {
     percale::TriangleMesh body;  // no triangles where nothing is in the way
 };
 
-/// What one run showed: the least time of all turns, the rest of the last one.
+/// Figures of one run: the shortest time of all turns, the rest of the last one.
 struct Run {
     double ms = std::numeric_limits<double>::infinity();  // CPU time a step
     double strain = 0.0;
@@ -87,7 +87,7 @@ std::string quoted(const std::string& text) {
     return result + "'";
 }
 
-/// The number behind `key` in what a peer printed; a run that burst may print nan.
+/// The number behind `key` in the output of a peer; a run that diverged may print nan.
 double number_behind(const std::string& text, const std::string& key) {
     const std::size_t at = text.rfind(key);
     if (at == std::string::npos) throw std::runtime_error("the peer printed no " + key + "...");

@@ -1,5 +1,5 @@
-// Runs scenes drawn at random, each step of each certified, and prints which were not clear of their obstacles. Exit code 1 if
-// one was not.
+// Runs scenes drawn at random, each step of each certified, and prints which were not clear of their obstacles. The exit code is
+// 1 if one was not.
 #include <cstdio>
 #include <map>
 #include <string>

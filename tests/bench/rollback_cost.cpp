@@ -1,6 +1,6 @@
-// Prints what a rollback costs: a scene is run to a time, then save, restore and step are timed there, and a round of a host that
-// takes back some steps and makes them again: restore, then a step and a save each. CPU time of the calling thread, the smallest
-// of several rounds.
+// Prints the cost of a rollback: a scene is run to a time, then save, restore and step are timed there, and a round of a host
+// that undoes some steps and makes them again: restore, then a step and a save each. CPU time of the calling thread, the
+// smallest of several rounds.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -35,11 +35,11 @@ private:
 };
 
 struct Wanted {
-    std::string until;  // s, as a scene file has it
+    std::string until;  // s, as written in a scene file
     int rounds = 0, depth = 0;
 };
 
-/// Throws if the run does not finish, a step fails, or steps made again end elsewhere.
+/// Throws if the run does not finish, a step fails, or repeated steps end in another state.
 Figures measure(const std::string& file, const Wanted& wanted) {
     const std::vector<Override> overrides{{"duration", wanted.until}, {"step.threads", "1"}, {"step.measure", "none"}};
     BuiltScene built = build_scene(load_scene(file, overrides));

@@ -1,4 +1,4 @@
-// Prints what leaving out saves: whole scenes as planned and with step.skip = false, in turn, and how far apart they end.
+// Prints the saving by skips: whole scenes as planned and with step.skip = false, in turn, and the distance of their ends.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Prints what a 1/60 s step costs on the scenes S1 (sheet hanging from two corners), S2 (sheet onto a sphere), S3 (sheet onto a
+// Prints the cost of a 1/60 s step on the scenes S1 (sheet hanging from two corners), S2 (sheet onto a sphere), S3 (sheet onto a
 // bunny scan, if there is one) and S4 (the same while the scan breathes: every vertex moves in every step), by stage, in ms and
 // in machine units U: one pass of a plain scalar force loop over an array of spring structs on the same machine in the same run.
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 using percale::test::Figures;
 using percale::test::make_sheet_scene;
 
-/// What the steps of one run add up to.
+/// Sums over the steps of one run.
 struct Cost {
     int steps = 0;
     double seconds = 0.0, strain = 0.0;
@@ -63,7 +63,7 @@ Cost run(percale::Simulation& simulation, int steps, Breathing* body) {
     return cost;
 }
 
-/// What a scene is made of.
+/// Sheet and body of a scene.
 struct Bench {
     const char* scene;
     int n;
@@ -75,8 +75,7 @@ Figures figures_of(const Bench& bench, const Cost& cost) {
     const double ms = 1e3 * cost.seconds / cost.steps, per = 1e3 / cost.steps;
     const percale::StageTimes& stages = cost.stages;
     const double other =
-        ms -
-        per * percale::test::total(stages);  // among it what a body that bends costs: its new shape is told, its tree refitted
+        ms - per * percale::test::total(stages);  // includes the cost of a deforming body: setting its shape, refitting its tree
     Figures row = {{"scene", bench.scene},
                    {"n", bench.n},
                    {"ms", ms},

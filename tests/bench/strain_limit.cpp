@@ -1,4 +1,4 @@
-// Prints what keeping cloth short costs: a soft sheet that hangs from two corners, free, with a strain limit, and with springs so
+// Prints the cost of limiting strain: a soft sheet that hangs from two corners, free, with a strain limit, and with springs so
 // stiff that they keep to the limit by themselves.
 #include <algorithm>
 #include <cstdio>
@@ -23,7 +23,7 @@ struct Sheet {
 
 struct Cost {
     double cpu_s = std::numeric_limits<double>::infinity();
-    double strain = 0.0, median_strain = 0.0;  // of the steps' largest
+    double strain = 0.0, median_strain = 0.0;  // of the largest strain of each step
     int newton = 0, linear = 0;
 };
 

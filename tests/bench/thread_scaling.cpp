@@ -1,5 +1,6 @@
 // Prints the wall time of a 1/60 s step by number of threads: a sheet that hangs, one that falls onto a sphere, one onto a bunny
-// scan, if there is one. The numbers of threads take turns; the least time counts. Says whether all ended in the same state.
+// scan, if there is one. The numbers of threads take turns; the shortest time counts. Reports whether all ended in the same
+// state.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -16,7 +17,7 @@ namespace {
 using percale::test::Figures;
 using namespace percale;
 
-/// What the steps of one run add up to.
+/// Sums over the steps of one run.
 struct Run {
     double wall_s = 0.0, cpu_s = 0.0;
     StageTimes stages;
@@ -59,12 +60,12 @@ void print_row(const Figures& row) {
     std::fflush(stdout);
 }
 
-/// One row a number of threads. Stages are of the calling thread, which waits for the others without sleeping.
+/// Adds one row for each number of threads. Stages are of the calling thread, which waits for the others without sleeping.
 void add_rows(const Wanted& wanted, const std::string& scene, int n, const TriangleMesh* body, Figures& rows) {
     const int steps = std::max(1, static_cast<int>(std::lround(60.0 * wanted.seconds)));
     std::vector<std::optional<Run>> best(wanted.threads.size());
     std::vector<bool> same(best.size(), true);
-    std::optional<std::uint64_t> end;  // of the first run, which all others have to have
+    std::optional<std::uint64_t> end;  // of the first run, which all others must equal
     for (int turn = 0; turn < wanted.turns; ++turn) {
         for (std::size_t k = 0; k < best.size(); ++k) {
             const StepSettings settings{.threads = wanted.threads[k]};

@@ -1,6 +1,6 @@
 // Error against CPU time on the sheet that hangs from two corners: every scheme of Percale, a plain scalar Runge-Kutta and
-// Bullet's deformable body, in one run. The error is the root of the mean square over vertices against the plain Runge-Kutta with
-// a step of 1e-5 s; the time that of the measuring thread, the least of the rounds.
+// Bullet's deformable body, in one run. The error is the root of the mean square over vertices against the plain Runge-Kutta
+// with a step of 1e-5 s; the time is that of the measuring thread, the shortest of the rounds.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -32,12 +32,12 @@ struct Task {
     double duration;  // s
 };
 
-/// What one run is and what it came to.
+/// Settings and results of one run.
 struct Row {
     std::string engine, setting;
     int steps = 0;
     std::function<std::vector<Vec3>(int steps)> run;  // from the start to the end
-    double error = infinity;                          // m; infinity: blew up
+    double error = infinity;                          // m; infinity: diverged
     double seconds = infinity;                        // CPU
 };
 
@@ -121,7 +121,7 @@ void add_bullet(const Task& task, std::vector<Row>& rows) {
 #endif
 }
 
-/// One round of a row: its time, and in the first round its error. What left the room, ten metres around, blew up.
+/// One round of a row: its time, and in the first round its error. A run that left the room, ten metres around, has diverged.
 void measure(Row& row, const std::vector<Vec3>& reference) {
     const double start = test::cpu_seconds();
     const std::vector<Vec3> end = row.run(row.steps);
@@ -155,8 +155,8 @@ const Row* cheapest(const std::vector<Row>& rows, const std::string& engine, dou
     return best;
 }
 
-/// The most exact of an engine's rows with a setting; the cheaper of equals.
-const Row* most_exact(const std::vector<Row>& rows, const std::string& engine, const std::string& setting) {
+/// The row of an engine with a setting that has the smallest error; of equals the cheaper one.
+const Row* most_accurate(const std::vector<Row>& rows, const std::string& engine, const std::string& setting) {
     const Row* best = nullptr;
     for (const Row& row : rows)
         if (row.engine == engine && row.setting == setting && std::isfinite(row.error) && (!best || row.error < best->error))
@@ -186,7 +186,7 @@ Figures compare_with_bullet(const std::vector<Row>& rows, const Task& task) {
     Figures ratios = Figures::array();
     const Row* ours = cheapest(rows, "Percale", 1e-6);
     for (const char* setting : {"implicit", "explicit"}) {
-        const Row* bullet = most_exact(rows, "Bullet", setting);
+        const Row* bullet = most_accurate(rows, "Bullet", setting);
         if (!ours || !bullet) continue;
         std::printf("Bullet %s, %.2e m, takes %.1f times as long as Percale for 1e-6 m (wanted >= 4)\n", setting, bullet->error,
                     bullet->seconds / ours->seconds);

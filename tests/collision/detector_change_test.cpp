@@ -29,44 +29,44 @@ Steps sheet_on_three(const Backend& backend, int without = -1, const Vec3& away 
     return steps;
 }
 
-/// Sinks and is cut; the rows at the start, half-way and at the end.
+/// Cloth that sinks and is clamped; the constraints at the start, half-way and at the end.
 struct SinkingStep {
-    ContactRows rows[3];
+    ContactConstraints constraints[3];
     double safe = 0.0;
 
     SinkingStep(ContactDetector& detector, std::vector<Vec3>& at, Random random) {
         std::vector<Vec3> to;
         for (const Vec3& x : at) to.push_back(x + Vec3(0, -0.02, 0) + random.point(0.002));
-        detector.refresh(at, to);
-        detector.evaluate(at, 0.0, rows[0]);
-        safe = detector.largest_safe_fraction(at, to, {0.0, 1.0});
-        detector.evaluate(between(at, to, 0.5 * safe), 1.0, rows[1]);
+        detector.update_candidates(at, to);
+        detector.find_contacts(at, 0.0, constraints[0]);
+        safe = detector.collision_free_step_size(at, to, {0.0, 1.0});
+        detector.find_contacts(between(at, to, 0.5 * safe), 1.0, constraints[1]);
         at = between(at, to, safe);
-        detector.evaluate(at, 1.0, rows[2]);
+        detector.find_contacts(at, 1.0, constraints[2]);
     }
     bool operator==(const SinkingStep& other) const {
-        return safe == other.safe && same_rows(rows[0], other.rows[0]) && same_rows(rows[1], other.rows[1]) &&
-               same_rows(rows[2], other.rows[2]);
+        return safe == other.safe && same_constraints(constraints[0], other.constraints[0]) &&
+               same_constraints(constraints[1], other.constraints[1]) && same_constraints(constraints[2], other.constraints[2]);
     }
     void replace_obstacle(int number, int other) {
-        for (ContactRows& of : rows) std::ranges::replace(of.obstacle, number, other);
+        for (ContactConstraints& of : constraints) std::ranges::replace(of.obstacle, number, other);
     }
-    std::size_t contacts() const { return rows[0].size() + rows[1].size() + rows[2].size(); }
+    std::size_t contacts() const { return constraints[0].size() + constraints[1].size() + constraints[2].size(); }
 };
 
-ContactRows without_obstacle(ContactRows rows, int obstacle) {
-    for (std::size_t i = rows.size(); i-- > 0;) {
-        if (rows.obstacle[i] == obstacle)
-            rows.erase(i);
-        else if (rows.obstacle[i] > obstacle)
-            --rows.obstacle[i];
+ContactConstraints without_obstacle(ContactConstraints constraints, int obstacle) {
+    for (std::size_t i = constraints.size(); i-- > 0;) {
+        if (constraints.obstacle[i] == obstacle)
+            constraints.erase(i);
+        else if (constraints.obstacle[i] > obstacle)
+            --constraints.obstacle[i];
     }
-    return rows;
+    return constraints;
 }
 
 }  // namespace
 
-TEST_CASE("an obstacle that was far, once taken out, leaves the rows and cuts that would have been without it, on any tree") {
+TEST_CASE("a far obstacle that is taken out leaves the constraints and clamps of a scene without it, on any tree") {
     for (const Backend& backend : backends()) {
         CAPTURE(backend.name);
         Steps had = sheet_on_three(backend, -1, {0, -9, 0}), never = sheet_on_three(backend, 1);
@@ -85,20 +85,20 @@ TEST_CASE("an obstacle that was far, once taken out, leaves the rows and cuts th
     }
 }
 
-TEST_CASE("of an obstacle that was touched every row goes, the others stay in every bit, standing contacts included") {
+TEST_CASE("every constraint of an obstacle that is taken out goes, the others stay in every bit, persistent contacts included") {
     for (const Backend& backend : backends()) {
         for (const int gone : {0, 1, 2}) {
             CAPTURE(backend.name, gone);
             Steps steps = sheet_on_three(backend);
             std::vector<Vec3> at = steps.cloth.vertices;
             for (int n = 0; n < 16; ++n) SinkingStep(*steps.detector, at, Random(n));
-            ContactRows before, after;
-            steps.detector->evaluate(at, 1.0, before);
+            ContactConstraints before, after;
+            steps.detector->find_contacts(at, 1.0, before);
             steps.detector->remove_obstacle(gone);
-            steps.detector->evaluate(at, 1.0, after);
+            steps.detector->find_contacts(at, 1.0, after);
             CHECK(std::ranges::count(before.obstacle, gone) > 20);
             CHECK(after.size() > 20);
-            CHECK(same_rows(after, without_obstacle(before, gone)));
+            CHECK(same_constraints(after, without_obstacle(before, gone)));
             const StartFault fault = steps.detector->check_start(std::vector<Vec3>(steps.cloth.vertices));
             CHECK_FALSE(fault.any());
         }
@@ -121,39 +121,39 @@ TEST_CASE("cloth may go through where an obstacle was, but through no other") {
             const std::vector<Vec3> from = below(places[gone].x());
             std::vector<Vec3> to = from;
             for (Vec3& p : to) p.y() -= 1.0;
-            CHECK(patch.detector->largest_safe_fraction(from, to, {0.0, 1.0}) < 0.5);
+            CHECK(patch.detector->collision_free_step_size(from, to, {0.0, 1.0}) < 0.5);
             patch.detector->remove_obstacle(gone);
-            CHECK(patch.detector->largest_safe_fraction(from, to, {0.0, 1.0}) == 1.0);
+            CHECK(patch.detector->collision_free_step_size(from, to, {0.0, 1.0}) == 1.0);
             const std::vector<Vec3> other = below(places[0].x());
             to = other;
             for (Vec3& p : to) p.y() -= 1.0;
-            CHECK(patch.detector->largest_safe_fraction(other, to, {0.0, 1.0}) < 0.5);
+            CHECK(patch.detector->collision_free_step_size(other, to, {0.0, 1.0}) < 0.5);
         }
         patch.detector->remove_obstacle(0);
-        ContactRows rows;
-        patch.detector->refresh(at, at);
-        patch.detector->evaluate(at, 1.0, rows);
-        CHECK(rows.size() == 0);
+        ContactConstraints constraints;
+        patch.detector->update_candidates(at, at);
+        patch.detector->find_contacts(at, 1.0, constraints);
+        CHECK(constraints.size() == 0);
         CHECK(patch.detector->smallest_distance() == infinity);
         CHECK(patch.detector->add_obstacle(make_box({0.1, 0.1, 0.1}), {}, 0.3) == 0);
     }
 }
 
-TEST_CASE("friction that was changed is that of all later rows of the obstacle, and nothing else changes") {
+TEST_CASE("friction that was changed is that of all later constraints of the obstacle, and nothing else changes") {
     for (const Backend& backend : backends()) {
         CAPTURE(backend.name);
         Steps steps = sheet_on_three(backend);
         std::vector<Vec3> at = steps.cloth.vertices;
         for (int n = 0; n < 16; ++n) SinkingStep(*steps.detector, at, Random(n));
-        ContactRows before, after;
-        steps.detector->evaluate(at, 1.0, before);
+        ContactConstraints before, after;
+        steps.detector->find_contacts(at, 1.0, before);
         steps.detector->set_friction(1, 0.77);
-        steps.detector->evaluate(at, 1.0, after);
+        steps.detector->find_contacts(at, 1.0, after);
         REQUIRE(std::ranges::count(before.obstacle, 1) > 20);
         for (std::size_t i = 0; i < before.size(); ++i) {
             if (before.obstacle[i] == 1) before.friction[i] = 0.77;
         }
-        CHECK(same_rows(after, before));
+        CHECK(same_constraints(after, before));
     }
 }
 

@@ -7,7 +7,7 @@
 
 namespace percale::test::detector_start_test {
 
-TEST_CASE("a start is checked: clean, through, inside and touching are told apart") {
+TEST_CASE("a start is checked: clean, through, inside and touching are distinguished") {
     Random random(440);
     Steps steps = make_steps(Scene::two, small_sheet(), backends().back());
     const auto fault_at = [&](const Vec3& by) { return steps.detector->check_start(shifted(steps.cloth, by, 0.0, random)); };
@@ -61,10 +61,10 @@ TEST_CASE("a start is checked where the obstacle is at the start of the step, no
     Steps steps = make_steps(Scene::ball, small_sheet(), backends().back());
     steps.obstacles[0].start.translation = Vec3(0, -3, 0);
     steps.obstacles[0].end.translation = Vec3(0, 0, 0);
-    steps.tell_poses();
+    steps.report_poses();
     CHECK_FALSE(steps.detector->check_start(steps.cloth.vertices).any());
     std::swap(steps.obstacles[0].start, steps.obstacles[0].end);
-    steps.tell_poses();
+    steps.report_poses();
     CHECK(steps.detector->check_start(steps.cloth.vertices).any());
 }
 
@@ -78,16 +78,16 @@ TEST_CASE("obstacles are numbered in order, and one without any area is refused"
     CHECK(detector->add_obstacle(make_sphere(1, 1), {}, 0.2) == 2);
 }
 
-TEST_CASE("without obstacles there is no contact, no cut and no fault") {
+TEST_CASE("without obstacles there is no contact, no clamp and no fault") {
     const auto detector = make_detector(make_brute_force_tree);
     const TriangleMesh cloth = small_sheet();
     detector->set_cloth(cloth.triangles, std::vector<double>(25, sheet_thickness));
-    ContactRows rows;
-    detector->refresh(cloth.vertices, cloth.vertices);
-    detector->evaluate(cloth.vertices, 0.0, rows);
-    CHECK(rows.size() == 0);
+    ContactConstraints constraints;
+    detector->update_candidates(cloth.vertices, cloth.vertices);
+    detector->find_contacts(cloth.vertices, 0.0, constraints);
+    CHECK(constraints.size() == 0);
     CHECK(detector->smallest_distance() == infinity);
-    CHECK(detector->largest_safe_fraction(cloth.vertices, cloth.vertices, {}) == 1.0);
+    CHECK(detector->collision_free_step_size(cloth.vertices, cloth.vertices, {}) == 1.0);
     CHECK_FALSE(detector->check_start(cloth.vertices).any());
 }
 
@@ -97,7 +97,7 @@ TEST_CASE("every backend untangles to the same bits, from where the obstacle is 
         Steps steps = make_steps(Scene::ball, small_sheet(), backend);
         steps.obstacles[0].start.translation = Vec3(0, 0.1, 0);
         steps.obstacles[0].end.translation = Vec3(0, 7, 0);
-        steps.tell_poses();
+        steps.report_poses();
         REQUIRE(steps.detector->check_start(steps.cloth.vertices).any());
         const auto out = steps.detector->untangle(steps.cloth.vertices, std::vector<double>(25, 1.0));
         REQUIRE(out);
@@ -108,11 +108,11 @@ TEST_CASE("every backend untangles to the same bits, from where the obstacle is 
     for (const std::vector<Vec3>& result : results) CHECK(result == results[0]);
 }
 
-TEST_CASE("untangling that is cancelled finds no way, until it is not any more") {
+TEST_CASE("untangling that is cancelled finds no result, until the request is withdrawn") {
     std::atomic<bool> cancel = false;
     Steps steps = make_steps(Scene::ball, small_sheet(), backends()[0]);
     steps.obstacles[0].start.translation = Vec3(0, 0.1, 0);
-    steps.tell_poses();
+    steps.report_poses();
     steps.detector->set_cancel(&cancel);
     // Two sheets at right angles, through each other.
     const TriangleMesh sheet = make_grid(0.3, 0.3, 6, 6);

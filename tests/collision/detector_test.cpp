@@ -23,11 +23,11 @@ void give_poses(std::vector<Steps>& all, bool moving, Random& random) {
     set_poses(all[0], moving, random);
     for (Steps& steps : all) {
         steps.obstacles = all[0].obstacles;
-        steps.tell_poses();
+        steps.report_poses();
     }
 }
 
-/// A clean place for the cloth at the start of the step: far outside, or wherever chance puts it.
+/// A clear place for the cloth at the start of the step: far outside, or a random one.
 std::vector<Vec3> clean_start(const Steps& steps, Random& random) {
     for (int attempt = 0; attempt < 20; ++attempt) {
         TriangleMesh here = placed(steps.cloth, random.pose(0.0));
@@ -37,14 +37,14 @@ std::vector<Vec3> clean_start(const Steps& steps, Random& random) {
     return shifted(steps.cloth, {0.0, 2.0, 0.0}, 0.0, random);
 }
 
-struct CutOutcome {
+struct ClampOutcome {
     int moves = 0, cut = 0, bad = 0;
 };
 
-/// One move, cut; certified at several times on the way and at its end. Returns where it ended.
-std::vector<Vec3> cut_move(Steps& steps, std::span<const Vec3> from, std::span<const Vec3> to, StepFraction& part,
-                           CutOutcome& outcome) {
-    const double safe = steps.detector->largest_safe_fraction(from, to, part);
+/// One clamped move, certified at several times during it and at its end. Returns the positions at its end.
+std::vector<Vec3> clamp_move(Steps& steps, std::span<const Vec3> from, std::span<const Vec3> to, StepFraction& part,
+                             ClampOutcome& outcome) {
+    const double safe = steps.detector->collision_free_step_size(from, to, part);
     ++outcome.moves;
     outcome.cut += safe < 1.0 ? 1 : 0;
     for (const double share : {0.25, 0.5, 0.75, 1.0}) {
@@ -55,18 +55,18 @@ std::vector<Vec3> cut_move(Steps& steps, std::span<const Vec3> from, std::span<c
     return between(from, to, safe);
 }
 
-/// A step as a solver does it: a prediction, then corrections from where the cut left it while the obstacles are at the end or
+/// A step as a solver does it: a prediction, then corrections from where the clamp left it while the obstacles are at the end or
 /// move on.
-void random_step(Steps& steps, std::vector<Vec3>& x, double speed, Random& random, CutOutcome& outcome) {
+void random_step(Steps& steps, std::vector<Vec3>& x, double speed, Random& random, ClampOutcome& outcome) {
     const auto aim = [&] {
         const Vec3 way = random.index(2) == 0 ? Vec3(-random.number(0.2, 2.0) * x[x.size() / 2]) : random.point(speed);
         return shifted({.vertices = x, .triangles = {}}, way, 0.2 * speed, random);
     };
     StepFraction part{0.0, 1.0};
     std::vector<Vec3> to = aim();
-    steps.detector->refresh(x, to);
+    steps.detector->update_candidates(x, to);
     for (int k = 0; k < 4; ++k) {
-        x = cut_move(steps, x, to, part, outcome);
+        x = clamp_move(steps, x, to, part, outcome);
         to = aim();
     }
 }
@@ -98,62 +98,65 @@ std::vector<Contact> contacts_of_all_pairs(const Steps& steps, std::span<const V
 
 }  // namespace
 
-TEST_CASE("all backends give the same rows to the last bit and the same cuts", "[slow]") {
+TEST_CASE("all backends give the same constraints to the last bit and the same clamps", "[slow]") {
     const Scene scene = GENERATE(Scene::ball, Scene::box, Scene::spiky, Scene::two, Scene::plane);
     const bool moving = GENERATE(false, true);
     Random random(300 + static_cast<int>(scene));
     const TriangleMesh sheet = make_grid(0.5, 0.5, 7, 7);
     std::vector<Steps> all = with_all_backends(scene, sheet);
-    int with_rows = 0, differing = 0;
+    int with_constraints = 0, differing = 0;
     for (int state = 0; state < 60; ++state) {
         if (moving || state % 10 == 0) give_poses(all, moving, random);
         const auto x = shifted(placed(sheet, random.pose(0.0)), random.point(0.3), 0.03, random);
         const auto to = shifted({.vertices = x, .triangles = {}}, random.point(0.1), 0.03, random);
         const double fraction = random.number(0.0, 1.0);
-        std::vector<ContactRows> rows(all.size());
+        std::vector<ContactConstraints> constraints(all.size());
         std::vector<double> cuts, nearest;
         for (std::size_t b = 0; b < all.size(); ++b) {
-            if (state % 2 == 0) all[b].detector->refresh(x, to);
-            all[b].detector->evaluate(x, fraction, rows[b]);
+            if (state % 2 == 0) all[b].detector->update_candidates(x, to);
+            all[b].detector->find_contacts(x, fraction, constraints[b]);
             nearest.push_back(all[b].detector->smallest_distance());
-            cuts.push_back(all[b].detector->largest_safe_fraction(x, to, {fraction, 1.0}));
+            cuts.push_back(all[b].detector->collision_free_step_size(x, to, {fraction, 1.0}));
         }
-        with_rows += rows[0].size() > 0 ? 1 : 0;
+        with_constraints += constraints[0].size() > 0 ? 1 : 0;
         for (std::size_t b = 1; b < all.size(); ++b) {
-            differing += same_rows(rows[b], rows[0]) && cuts[b] == cuts[0] && nearest[b] == nearest[0] ? 0 : 1;
+            differing +=
+                same_constraints(constraints[b], constraints[0]) && cuts[b] == cuts[0] && nearest[b] == nearest[0] ? 0 : 1;
         }
     }
-    CHECK(with_rows > 25);
+    CHECK(with_constraints > 25);
     CHECK(differing == 0);
 }
 
-TEST_CASE("rows are those of all pairs of features that are near and local minima, at any fraction of the step") {
+TEST_CASE("constraints are those of all pairs of features that are near and local minima, at any fraction of the step") {
     const Scene scene = GENERATE(Scene::ball, Scene::box, Scene::spiky, Scene::two, Scene::single_triangle);
     const bool moving = GENERATE(false, true);
     Random random(320 + static_cast<int>(scene));
     const TriangleMesh sheet = make_grid(0.4, 0.4, 3, 3);
     Steps steps = make_steps(scene, sheet, backends()[0]);
-    long expected_rows = 0;
+    long expected_constraints = 0;
     for (int state = 0; state < 6; ++state) {
         if (moving) set_poses(steps, true, random);
         const double fraction = random.number(0.0, 1.0);
         const auto x = shifted(placed(sheet, random.pose(0.0)), random.point(0.25), 0.03, random);
         const std::vector<Contact> expected = contacts_of_all_pairs(steps, x, fraction);
-        ContactRows rows;
-        steps.detector->refresh(x, x);
-        steps.detector->evaluate(x, fraction, rows);
+        ContactConstraints constraints;
+        steps.detector->update_candidates(x, x);
+        steps.detector->find_contacts(x, fraction, constraints);
         std::vector<Contact> found;
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            if (rows.vertex[i][2] < 0) found.push_back({rows.obstacle[i], rows.feature[i], rows.distance[i]});
+        for (std::size_t i = 0; i < constraints.size(); ++i) {
+            if (constraints.vertex[i][2] < 0)
+                found.push_back({constraints.obstacle[i], constraints.feature[i], constraints.distance[i]});
         }
         std::sort(found.begin(), found.end());
         CHECK(std::equal(found.begin(), found.end(), expected.begin(), expected.end(), nearly_same));
-        expected_rows += static_cast<long>(expected.size());
+        expected_constraints += static_cast<long>(expected.size());
     }
-    CHECK(expected_rows > 0);
+    CHECK(expected_constraints > 0);
 }
 
-TEST_CASE("every row keeps the promise of its header, and the nearest of them is the smallest distance of the meshes", "[slow]") {
+TEST_CASE("every constraint satisfies the equation of its header, and the nearest is the smallest distance of the meshes",
+          "[slow]") {
     const Scene scene = GENERATE(Scene::ball, Scene::box, Scene::spiky, Scene::two, Scene::single_triangle);
     Random random(340 + static_cast<int>(scene));
     Steps steps = make_steps(scene, small_sheet(), backends().back());
@@ -162,29 +165,29 @@ TEST_CASE("every row keeps the promise of its header, and the nearest of them is
         set_poses(steps, true, random);
         std::vector<Vec3> x = clean_start(steps, random);
         StepFraction part{0.0, 1.0};
-        CutOutcome outcome;
-        x = cut_move(steps, x, shifted({.vertices = x, .triangles = {}}, -1.5 * x[12], 0.02, random), part, outcome);
-        ContactRows rows;
-        steps.detector->evaluate(x, part.from, rows);
+        ClampOutcome outcome;
+        x = clamp_move(steps, x, shifted({.vertices = x, .triangles = {}}, -1.5 * x[12], 0.02, random), part, outcome);
+        ContactConstraints constraints;
+        steps.detector->find_contacts(x, part.from, constraints);
         double least = infinity, worst = 0.0, off_point = 0.0;
-        for (std::size_t i = 0; i < rows.size(); ++i) {
+        for (std::size_t i = 0; i < constraints.size(); ++i) {
             Vec3 point = Vec3::Zero();
             double sum = 0.0;
-            for (int k = 0; k < 4 && rows.vertex[i][k] >= 0; ++k) {
-                point += rows.weight[i][k] * x[rows.vertex[i][k]];
-                sum += rows.weight[i][k];
+            for (int k = 0; k < 4 && constraints.vertex[i][k] >= 0; ++k) {
+                point += constraints.weight[i][k] * x[constraints.vertex[i][k]];
+                sum += constraints.weight[i][k];
             }
-            worst = std::max(worst, std::abs(rows.direction[i].dot(point - rows.obstacle_point[i]) - rows.distance[i]));
-            worst = std::max({worst, std::abs(sum - 1.0), std::abs(rows.direction[i].norm() - 1.0)});
-            off_point =
-                std::max(off_point,
-                         true_mesh_distance({.vertices = std::vector<Vec3>(3, rows.obstacle_point[i]), .triangles = {{0, 1, 2}}},
-                                            steps.obstacles[rows.obstacle[i]].at(part.from)));
-            CHECK(rows.friction[i] == 0.1 * rows.obstacle[i]);
-            CHECK(rows.thickness[i] == sheet_thickness);
-            CHECK(rows.distance[i] > 0.0);
-            CHECK(rows.distance[i] < sheet_thickness);
-            least = std::min(least, rows.distance[i]);
+            worst = std::max(
+                worst, std::abs(constraints.direction[i].dot(point - constraints.obstacle_point[i]) - constraints.distance[i]));
+            worst = std::max({worst, std::abs(sum - 1.0), std::abs(constraints.direction[i].norm() - 1.0)});
+            off_point = std::max(off_point, true_mesh_distance({.vertices = std::vector<Vec3>(3, constraints.obstacle_point[i]),
+                                                                .triangles = {{0, 1, 2}}},
+                                                               steps.obstacles[constraints.obstacle[i]].at(part.from)));
+            CHECK(constraints.friction[i] == 0.1 * constraints.obstacle[i]);
+            CHECK(constraints.thickness[i] == sheet_thickness);
+            CHECK(constraints.distance[i] > 0.0);
+            CHECK(constraints.distance[i] < sheet_thickness);
+            least = std::min(least, constraints.distance[i]);
         }
         CHECK(worst < 1e-14);
         CHECK(off_point < 1e-14);
@@ -197,19 +200,19 @@ TEST_CASE("every row keeps the promise of its header, and the nearest of them is
             CHECK(least == Approx(truth).margin(1e-13));
             CHECK(steps.detector->smallest_distance() == Approx(truth).margin(1e-13));
         } else {
-            CHECK(rows.size() == 0);
+            CHECK(constraints.size() == 0);
             CHECK(steps.detector->smallest_distance() >= sheet_thickness);
         }
     }
     CHECK(near > 5);
 }
 
-TEST_CASE("after a cut nothing crosses, on thousands of random moves through resting and moving obstacles", "[slow]") {
+TEST_CASE("after a clamp nothing crosses, on thousands of random moves through resting and moving obstacles", "[slow]") {
     const Scene scene = GENERATE(Scene::ball, Scene::box, Scene::spiky, Scene::two, Scene::single_triangle, Scene::plane);
     const bool moving = GENERATE(false, true);
     Random random(360 + static_cast<int>(scene));
     Steps steps = make_steps(scene, small_sheet(), backends().back());
-    CutOutcome outcome;
+    ClampOutcome outcome;
     for (int run = 0; run < 60; ++run) {
         set_poses(steps, moving, random);
         std::vector<Vec3> x = clean_start(steps, random);
@@ -232,17 +235,17 @@ TEST_CASE("steps follow each other: obstacles that sweep through a sheet over ma
     Steps steps = make_steps(scene, small_sheet(), backends().back());
     set_poses(steps, false, random);
     std::vector<Vec3> x = clean_start(steps, random);
-    CutOutcome outcome;
+    ClampOutcome outcome;
     int finished = 0;
     for (int step = 0; step < 60; ++step) {
         for (MovingMesh& o : steps.obstacles) o.start = o.end, o.end = turned_further(o.start, 0.02, random);
         for (MovingMesh& o : steps.obstacles) o.end.rotation = o.start.rotation;
-        steps.tell_poses();
+        steps.report_poses();
         const auto to = shifted({.vertices = x, .triangles = {}},
                                 steps.obstacles[0].end.translation - steps.obstacles[0].start.translation, 0.003, random);
-        steps.detector->refresh(x, to);
+        steps.detector->update_candidates(x, to);
         StepFraction part{0.0, 1.0};
-        for (int k = 0; k < 60 && part.from < 1.0; ++k) x = cut_move(steps, x, to, part, outcome);
+        for (int k = 0; k < 60 && part.from < 1.0; ++k) x = clamp_move(steps, x, to, part, outcome);
         if (part.from < 1.0) break;  // the cloth cannot follow: a solver would move it aside
         ++finished;
     }
@@ -264,10 +267,10 @@ TEST_CASE("a vertex at 100 m a step never gets through a single triangle, nor do
         Pose end = pose;
         if (obstacle_moves) end.translation -= way;
         steps.obstacles[0].end = end;
-        steps.tell_poses();
+        steps.report_poses();
         const auto start = shifted(cloth, aim - meet * way, 0.0, random);
         const auto to = obstacle_moves ? start : shifted({.vertices = start, .triangles = {}}, way, 0.0, random);
-        const double safe = steps.detector->largest_safe_fraction(start, to, {0.0, 1.0});
+        const double safe = steps.detector->collision_free_step_size(start, to, {0.0, 1.0});
         // The plane of the triangle is y = 0, in its own frame.
         bool crossing = false;
         for (int v = 0; v < 3; ++v) {
@@ -295,24 +298,25 @@ TEST_CASE("a vertex at 100 m a step never gets through a single triangle, nor do
     CHECK(through == 0);
 }
 
-TEST_CASE("a move that meets nothing is not cut") {
+TEST_CASE("a move that meets nothing is not clamped") {
     Random random(410);
     Steps steps = make_steps(Scene::ball, small_sheet(), backends().back());
     for (int i = 0; i < 100; ++i) {
         const auto x = shifted(steps.cloth, {0.0, 0.5, 0.0}, 0.05, random);
-        CHECK(steps.detector->largest_safe_fraction(x, shifted(steps.cloth, {0.3, 0.45, 0.2}, 0.05, random), {0.0, 1.0}) == 1.0);
+        CHECK(steps.detector->collision_free_step_size(x, shifted(steps.cloth, {0.3, 0.45, 0.2}, 0.05, random), {0.0, 1.0}) ==
+              1.0);
         const auto away = shifted({.vertices = x, .triangles = {}}, {0.0, i == 50 ? 100.0 : 1.0, 0.0}, 0.0, random);
-        CHECK(steps.detector->largest_safe_fraction(x, away, {0.0, 1.0}) == 1.0);
+        CHECK(steps.detector->collision_free_step_size(x, away, {0.0, 1.0}) == 1.0);
     }
 }
 
-TEST_CASE("cuts leave a fifth of the thickness, half of what was there, and never less than a thousandth of it") {
+TEST_CASE("clamps leave a fifth of the thickness, half of the distance, and never less than a thousandth of the thickness") {
     const TriangleMesh cloth{.vertices = {{0, 0, 0}, {0.01, 0, 0}, {0, 0, 0.01}}, .triangles = {{0, 1, 2}}};
     Steps steps = make_steps(Scene::plane, cloth, backends().back());
     Random random(420);
     const auto left_after = [&](double height) {
         const auto from = shifted(cloth, {0.1, height, 0.13}, 0.0, random), to = shifted(cloth, {0.1, -1.0, 0.13}, 0.0, random);
-        return between(from, to, steps.detector->largest_safe_fraction(from, to, {0.0, 1.0}))[0].y();
+        return between(from, to, steps.detector->collision_free_step_size(from, to, {0.0, 1.0}))[0].y();
     };
     for (const double height : {10.0, 1.0, 0.1, 0.5 * sheet_thickness}) {
         CHECK(left_after(height) > 0.2 * sheet_thickness);
@@ -333,19 +337,19 @@ TEST_CASE("the lists of a step do not lose contacts when the cloth outruns the p
     Random random(430);
     Steps predicted = make_steps(Scene::spiky, small_sheet(), backends()[0]);
     Steps fresh = make_steps(Scene::spiky, small_sheet(), backends()[0]);
-    int with_rows = 0, differing = 0;
+    int with_constraints = 0, differing = 0;
     for (int i = 0; i < 60; ++i) {
         const auto x = shifted(predicted.cloth, {0.0, 0.6, 0.0}, 0.02, random);
         const auto far = shifted(predicted.cloth, random.point(0.3), 0.05, random);
-        ContactRows a, b;
-        for (Steps* steps : {&predicted, &fresh}) steps->detector->refresh(x, x);
-        predicted.detector->evaluate(far, 0.5, a);
-        fresh.detector->refresh(far, far);
-        fresh.detector->evaluate(far, 0.5, b);
-        with_rows += b.size() > 0 ? 1 : 0;
-        differing += same_rows(a, b) ? 0 : 1;
+        ContactConstraints a, b;
+        for (Steps* steps : {&predicted, &fresh}) steps->detector->update_candidates(x, x);
+        predicted.detector->find_contacts(far, 0.5, a);
+        fresh.detector->update_candidates(far, far);
+        fresh.detector->find_contacts(far, 0.5, b);
+        with_constraints += b.size() > 0 ? 1 : 0;
+        differing += same_constraints(a, b) ? 0 : 1;
     }
-    CHECK(with_rows > 20);
+    CHECK(with_constraints > 20);
     CHECK(differing == 0);
 }
 

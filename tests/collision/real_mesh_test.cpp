@@ -32,7 +32,7 @@ TriangleMesh bent_sheet(double radius) {
     return sheet;
 }
 
-/// The sheet, turned somehow, pushed in along a random way as far as it goes in steps of 5 cm without touching.
+/// The sheet, turned somehow, pushed in along a random direction as far as it goes in steps of 5 cm without touching.
 TriangleMesh pushed_in(const Steps& steps, Random& random, Vec3& way) {
     way = random.unit();
     TriangleMesh sheet = moved(placed(steps.cloth, random.pose(0.0)), 1.5 * way);
@@ -46,7 +46,7 @@ TriangleMesh pushed_in(const Steps& steps, Random& random, Vec3& way) {
 
 }  // namespace
 
-TEST_CASE("around a body scan all backends give the same contacts and cuts, and cuts keep clear of it") {
+TEST_CASE("around a body scan all backends give the same contacts and clamps, and clamped moves stay clear of it") {
     const auto scan = read_off(real_mesh_folder() / "bunny00.off");
     if (!scan) {
         skip("no bunny00.off in " + real_mesh_folder().string() + " (PERCALE_REAL_MESHES)");
@@ -59,7 +59,7 @@ TEST_CASE("around a body scan all backends give the same contacts and cuts, and 
         all.push_back({.cloth = sheet, .obstacles = {{.mesh = scaled(*scan), .start = {}, .end = {}}}, .detector = nullptr});
         all.back().start(backend.make_detector(), thickness);
     }
-    int with_rows = 0, cut = 0, differing = 0, bad = 0;
+    int with_constraints = 0, cut = 0, differing = 0, bad = 0;
     for (int state = 0; state < 6; ++state) {
         const Pose start = random.pose(0.05);
         Pose end = start;
@@ -67,33 +67,34 @@ TEST_CASE("around a body scan all backends give the same contacts and cuts, and 
         for (Steps& steps : all) {
             steps.obstacles[0].start = start;
             steps.obstacles[0].end = end;
-            steps.tell_poses();
+            steps.report_poses();
         }
         Vec3 way;
         const TriangleMesh sheet_before = pushed_in(all[0], random, way);
         const std::vector<Vec3> from = sheet_before.vertices, to = moved(sheet_before, -0.05 * way).vertices;
-        std::vector<ContactRows> rows(all.size());
+        std::vector<ContactConstraints> constraints(all.size());
         std::vector<double> cuts;
         for (std::size_t b = 0; b < all.size(); ++b) {
-            all[b].detector->refresh(from, to);
-            const double safe = all[b].detector->largest_safe_fraction(from, to, {0.0, 1.0});
+            all[b].detector->update_candidates(from, to);
+            const double safe = all[b].detector->collision_free_step_size(from, to, {0.0, 1.0});
             std::vector<Vec3> x = between(from, to, safe);
             // On from there, so that the sheet comes within the thickness.
-            const double further = all[b].detector->largest_safe_fraction(x, to, {safe, 1.0});
+            const double further = all[b].detector->collision_free_step_size(x, to, {safe, 1.0});
             const double fraction = safe + further * (1.0 - safe);
             x = between(x, to, further);
-            all[b].detector->evaluate(x, fraction, rows[b]);
+            all[b].detector->find_contacts(x, fraction, constraints[b]);
             cuts.push_back(fraction);
             if (b == 0) bad += all[b].clean(x, fraction) ? 0 : 1;
         }
-        with_rows += rows[0].size() > 0 ? 1 : 0;
+        with_constraints += constraints[0].size() > 0 ? 1 : 0;
         cut += cuts[0] < 1.0 ? 1 : 0;
-        for (std::size_t b = 1; b < all.size(); ++b) differing += same_rows(rows[b], rows[0]) && cuts[b] == cuts[0] ? 0 : 1;
+        for (std::size_t b = 1; b < all.size(); ++b)
+            differing += same_constraints(constraints[b], constraints[0]) && cuts[b] == cuts[0] ? 0 : 1;
     }
     CHECK(differing == 0);
     CHECK(bad == 0);
     CHECK(cut > 0);
-    CHECK(with_rows > 0);
+    CHECK(with_constraints > 0);
 }
 
 }  // namespace percale::test::real_mesh_test

@@ -142,7 +142,7 @@ TEST_CASE("A refusal names owner, key, value, unit and range") {
           "settings: newton_iterations = 0 is outside the allowed range 1 ... 1000");
 }
 
-TEST_CASE("Fields of a fabric that exclude or need each other are refused, defaults contradict nothing") {
+TEST_CASE("Fields of a fabric that exclude or need each other are refused, and defaults contradict nothing") {
     const auto refused = [](const Fabric& fabric) { return scene_error([&] { check_options(fabric, "silk"); }); };
     CHECK(refused({.stretch_stiffness = {{2000.0, 1500.0}}, .shear_stiffness = 100.0, .bend_stiffness = 1e-5}) == "");
     CHECK(refused({.springs = {.structural = 0.0}, .stretch_stiffness = {{2.0, 1.0}}}) == "");

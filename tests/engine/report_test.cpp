@@ -43,7 +43,7 @@ TEST_CASE("Every status has a word of its own") {
     CHECK(words.count("unknown") == 0);
 }
 
-TEST_CASE("A ledger's sum adds what flows and shows the energies of the last step") {
+TEST_CASE("A ledger's sum adds the flows and has the energies of the last step") {
     const StepEnergy first{.kinetic = 1.0, .work = 2.0, .dissipated_material = 0.5, .imbalance = 0.25};
     const StepEnergy second{.kinetic = 3.0, .work = 1.0, .dissipated_contact = -1.0, .imbalance = -0.75};
     StepEnergy sum;
@@ -73,7 +73,7 @@ TEST_CASE("An explanation has the status and the figures") {
     }
 }
 
-TEST_CASE("Failures say what failed and what to do") {
+TEST_CASE("Failures state what failed and what to do") {
     StepReport pin = report_of(StepStatus::pin_blocked);
     pin.blocked_cloth = 2;
     pin.blocked_vertex = 45;
@@ -117,20 +117,21 @@ TEST_CASE("Explaining prints the explanation as one line") {
     CHECK(std::string(text.data(), size) == report.explanation() + "\n");
 }
 
-TEST_CASE("Total energy leaves work out") {
+TEST_CASE("Total energy excludes work") {
     const StepEnergy energy{.kinetic = 1.0, .gravity = 2.0, .elastic = 4.0, .contact = 8.0, .work = 16.0};
     CHECK(energy.total() == 15.0);
 }
 
-TEST_CASE("Dropped spans are counted by what became of them and told in words") {
-    DroppedSpans dropped;
+TEST_CASE("Dropped substeps are counted by their outcome and reported in words") {
+    DroppedSubsteps dropped;
     CHECK(dropped.text().empty());
-    for (const SpanEnd end : {SpanEnd::blocked, SpanEnd::solved, SpanEnd::inexact, SpanEnd::inexact, SpanEnd::not_finite})
+    for (const SubstepOutcome end : {SubstepOutcome::blocked, SubstepOutcome::solved, SubstepOutcome::inexact,
+                                     SubstepOutcome::inexact, SubstepOutcome::not_finite})
         dropped.add(end);
     CHECK(dropped.total() == 4);
     CHECK(dropped.text() == "1 blocked, 1 not finite, 2 not exact enough");
     dropped += {.not_converged = 3};
-    CHECK(dropped == DroppedSpans{.not_converged = 3, .blocked = 1, .not_finite = 1, .inexact = 2});
+    CHECK(dropped == DroppedSubsteps{.not_converged = 3, .blocked = 1, .not_finite = 1, .inexact = 2});
 }
 
 TEST_CASE("Solvers have the words of their option, and none where nothing was solved") {

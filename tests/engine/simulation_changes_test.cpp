@@ -14,7 +14,7 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// A detector without what it need not be able to do.
+/// A detector without its optional functions.
 class StubbornDetector : public PlaneDetector {
 public:
     void set_friction(int obstacle, double friction) override { ContactDetector::set_friction(obstacle, friction); }
@@ -22,7 +22,7 @@ public:
 
 }  // namespace
 
-TEST_CASE("Friction set on the way acts from the next step on: cloth that slid sticks, and slides again") {
+TEST_CASE("Friction changed during a run acts from the next step on: sliding cloth sticks, and slides again") {
     SlopeScene scene(0.0);
     scene.run(10);
     const double speed = scene.mean(scene.simulation.velocities(scene.cloth)).norm();
@@ -38,7 +38,7 @@ TEST_CASE("Friction set on the way acts from the next step on: cloth that slid s
     CHECK(scene.mean(scene.simulation.velocities(scene.cloth)).norm() == Approx(0.5 * 9.81 * 0.4).epsilon(0.02));
 }
 
-TEST_CASE("Friction and restitution set before the first step are those that an obstacle is added with") {
+TEST_CASE("Friction and restitution set before the first step are those with which an obstacle is added") {
     SlopeScene set(0.0, true, 0.0, 0.1), added(0.6, true, 0.8, 0.1);
     set.simulation.set_friction(set.plane, 0.6);
     set.simulation.set_restitution(set.plane, 0.8);
@@ -49,7 +49,7 @@ TEST_CASE("Friction and restitution set before the first step are those that an 
     }
 }
 
-TEST_CASE("Restitution set on the way: cloth that fell dead bounces") {
+TEST_CASE("Restitution changed during a run: cloth that fell without a rebound bounces") {
     for (const double restitution : {0.0, 0.5}) {
         SlopeScene scene(0.0, false, 0.9, 0.1);
         scene.run(2);
@@ -62,11 +62,11 @@ TEST_CASE("Restitution set on the way: cloth that fell dead bounces") {
         }
         CAPTURE(restitution, fastest, fall);
         CHECK(fastest >= restitution * fall - 0.25);
-        CHECK(fastest <= restitution * (fall + 9.81 / 60.0) + 0.02);  // it fell on within the step of the impact
+        CHECK(fastest <= restitution * (fall + 9.81 / 60.0) + 0.02);  // it continued to fall within the step of the impact
     }
 }
 
-TEST_CASE("What sets friction and restitution wakes cloth at rest, unless it is what they are") {
+TEST_CASE("Changing friction or restitution wakes cloth at rest, unless the value stays the same") {
     SlopeScene scene(5.0);
     while (!scene.simulation.step().slept) REQUIRE(scene.simulation.time() < 20.0);
     scene.simulation.set_friction(scene.plane, 5.0);
@@ -92,11 +92,11 @@ TEST_CASE("Friction and restitution out of range, or of no obstacle, are refused
     check_refused(s, [&] { s.set_restitution({-1}, 0.5); }, {"no obstacle -1"});
 }
 
-TEST_CASE("A detector that cannot change friction says so, naming the obstacle") {
+TEST_CASE("A detector that cannot change friction reports so, naming the obstacle") {
     SlopeScene scene(0.3, true, 0.0, 0.0045, std::make_unique<StubbornDetector>());
     check_refused(scene.simulation, [&] { scene.simulation.set_friction(scene.plane, 0.5); },
                   {"floor", "cannot change the friction"});
-    scene.simulation.set_friction(scene.plane, 0.3);  // which it has
+    scene.simulation.set_friction(scene.plane, 0.3);  // its present value
     scene.run(1);
 }
 
@@ -116,7 +116,7 @@ TEST_CASE("A cloth that was reset makes the steps of one that was just added, in
     }
 }
 
-TEST_CASE("Reset takes pins along, and what the cloth holds with beside its springs, and leaves other cloth alone") {
+TEST_CASE("Reset takes pins and holds along, and leaves other cloth alone") {
     Simulation simulation(StepSettings{});
     Fabric limited = free_fabric();
     limited.springs.structural = 20.0;
@@ -137,7 +137,7 @@ TEST_CASE("Reset takes pins along, and what the cloth holds with beside its spri
     CHECK(copy(simulation.positions(hung)) == start);
     CHECK(copy(simulation.positions(other)) == others);
     simulation.reset(other);
-    CHECK(simulation.energy().elastic == Approx(stored).margin(1e-12));  // nothing holds on
+    CHECK(simulation.energy().elastic == Approx(stored).margin(1e-12));  // no hold is left
     REQUIRE(simulation.step().ok());
     CHECK(simulation.positions(hung)[0] == start[0]);
     CHECK_THROWS_AS(simulation.reset({2}), SceneError);
@@ -196,7 +196,7 @@ TEST_CASE("The id of a cloth that was removed is refused by every call, and noth
     check_refused(s, [&] { s.remove_cloth({7}); }, {"no cloth 7"});
 }
 
-TEST_CASE("After a removal every call still reaches the body whose id it is given") {
+TEST_CASE("After a removal every call still acts on the body whose id it is given") {
     SlopeScene scene(0.0, false);
     Simulation& s = scene.simulation;
     const ObstacleId shelf = s.add_obstacle(make_plane(1.0), {.translation = Vec3(0, -3, 0)}, {.name = "shelf"});
@@ -221,7 +221,7 @@ TEST_CASE("After a removal every call still reaches the body whose id it is give
     CHECK(mentions(scene_error([&] { s.set_friction(rock, -1.0); }), {"rock"}));
     s.set_friction(scene.plane, 2.0);
     s.set_velocities(scene.cloth, std::vector<Vec3>(16, Vec3(0.5, 0, 0)));
-    scene.run(30);  // it is braked: the floor's friction is the one that was set
+    scene.run(30);  // the floor's new friction brakes it
     CHECK(scene.mean(s.velocities(scene.cloth)).norm() < 1e-3);
 }
 
@@ -246,7 +246,7 @@ TEST_CASE("The id of an obstacle that was removed is refused by every call, and 
     scene.run(3);
 }
 
-TEST_CASE("States saved before a removal are refused, states saved after it go on in every bit") {
+TEST_CASE("States saved before a removal are refused, and states saved after it continue in every bit") {
     const auto make = [](bool twice) {
         SlopeScene scene(0.4);
         const ObstacleId far = scene.simulation.add_obstacle(make_plane(1.0), {.translation = Vec3(0, -3, 0)});
@@ -261,7 +261,7 @@ TEST_CASE("States saved before a removal are refused, states saved after it go o
     s.remove_obstacle(far);
     check_refused(s, [&] { s.restore(whole); }, {"other obstacles"});
     const auto one_obstacle = s.save();
-    s.add_obstacle(make_plane(1.0), {.translation = Vec3(0, -3, 0)});  // the same again, under another id
+    s.add_obstacle(make_plane(1.0), {.translation = Vec3(0, -3, 0)});  // the same again, with another id
     check_refused(s, [&] { s.restore(whole); }, {"removed before it was saved"});
     s.remove_obstacle({2});
     s.restore(one_obstacle);
@@ -281,7 +281,7 @@ TEST_CASE("States saved before a removal are refused, states saved after it go o
     }
 }
 
-TEST_CASE("A detector that cannot remove an obstacle says so, naming it") {
+TEST_CASE("A detector that cannot remove an obstacle reports so, naming it") {
     class Firm : public PlaneDetector {
     public:
         void remove_obstacle(int obstacle) override { ContactDetector::remove_obstacle(obstacle); }

@@ -25,13 +25,13 @@ struct PlaneScene {
 
 }  // namespace
 
-TEST_CASE("A rotation that is a unit quaternion to rounding is made exactly one") {
+TEST_CASE("A rotation that is a unit quaternion to rounding is normalised exactly") {
     Simulation simulation(StepSettings{});
     const ClothId cloth = simulation.add_cloth(make_grid(1.0, 1.0, 3, 3), sheet_fabric(), {.rotation = {1.0000005, 0, 0, 0}});
     CHECK(copy(simulation.positions(cloth)) == make_grid(1.0, 1.0, 3, 3).vertices);
 }
 
-TEST_CASE("Without motion of pins or obstacles nobody works on the cloth") {
+TEST_CASE("Without motion of pins or obstacles no work is done on the cloth") {
     PlaneScene scene({.measure = StepMeasures::all});
     scene.simulation.pin(scene.cloth, 0);
     for (int n = 0; n < 20; ++n) CHECK(scene.simulation.step().energy.work == 0.0);
@@ -76,14 +76,14 @@ TEST_CASE("Two cloths of one simulation move as each would alone") {
     CHECK(largest_difference(copy(both.positions(b)), copy(second.positions(d))) < 1e-8);
 }
 
-TEST_CASE("The residual is that of the state a step ends in, not of the one it came from") {
+TEST_CASE("The residual is that of the state at the end of a step, not of its start") {
     Simulation simulation({.newton_iterations = 1});
     simulation.add_cloth(make_grid(0.5, 0.5, 4, 4), sheet_fabric());
-    // One linear solve moves a free sheet at rest to where gravity takes it, so nothing is left over.
+    // One linear solve moves a free sheet at rest as gravity does, so that the residual is zero.
     CHECK(simulation.step().residual < 1e-8);
 }
 
-TEST_CASE("A simulation without cloth, or that was moved, steps on") {
+TEST_CASE("A simulation without cloth, or a moved one, continues to step") {
     Simulation empty(StepSettings{});
     CHECK(empty.step().ok());
     CHECK(empty.time() == 1.0 / 60.0);
@@ -96,7 +96,7 @@ TEST_CASE("A simulation without cloth, or that was moved, steps on") {
     CHECK(target.positions(cloth)[4].y() == Approx(-3.0 * 9.81 / 3600).epsilon(1e-6));
 }
 
-TEST_CASE("Settings, poses and meshes that cannot be are refused by name") {
+TEST_CASE("Invalid settings, poses and meshes are refused by name") {
     CHECK(mentions(scene_error([] { Simulation simulation({.time_step = 0.0}); }), {"settings", "time_step", "0"}));
     Simulation simulation(StepSettings{});
     const TriangleMesh grid = make_grid(0.5, 0.5, 3, 3);
@@ -122,7 +122,7 @@ TEST_CASE("Settings, poses and meshes that cannot be are refused by name") {
     CHECK(mentions(obstacle(make_plane(1.0), {.scale = -1.0}, 0.3), {"floor", "scale", "-1"}));
 }
 
-TEST_CASE("Cloths, vertices and obstacles that do not exist are refused with the range of those that do") {
+TEST_CASE("Cloths, vertices and obstacles that do not exist are refused with the valid range") {
     PlaneScene scene;
     Simulation& s = scene.simulation;
     const auto no_cloth = [](const std::string& text, const char* number) {
@@ -166,7 +166,7 @@ TEST_CASE("Explicit schemes refuse obstacles") {
     CHECK_FALSE(scene_error([&] { scene.simulation.step(); }).empty());
 }
 
-TEST_CASE("Cloth that is to meet cloth needs a detector that can do that") {
+TEST_CASE("Cloth with self_contact needs a detector that supports it") {
     Fabric fabric = sheet_fabric();
     fabric.self_contact = true;
     const auto add_to = [&](Simulation&& simulation) { simulation.add_cloth(make_grid(0.5, 0.5, 3, 3), fabric, {}, "towel"); };

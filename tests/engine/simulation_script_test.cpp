@@ -12,7 +12,7 @@ namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
-/// Level planes, of whose faults every vertex is told.
+/// Level planes that name every vertex in a fault.
 class LevelDetector : public PlaneDetector {
 public:
     int add_obstacle(const TriangleMesh& mesh, const Pose& pose, double friction) override {
@@ -51,7 +51,7 @@ struct PlaneScene {
 
 }  // namespace
 
-TEST_CASE("Pinned vertices keep their place exactly while the rest moves, and fall when let go") {
+TEST_CASE("Pinned vertices keep their place exactly while the rest moves, and fall when released") {
     Simulation simulation(StepSettings{});
     const ClothId cloth = simulation.add_cloth(make_grid(0.5, 0.5, 4, 4), sheet_fabric(), {.translation = Vec3(0.1, 0.7, 0.3)});
     simulation.pin(cloth, 0);
@@ -95,14 +95,14 @@ TEST_CASE("Pinning twice, or a moving vertex, holds it where it is") {
     for (int n = 0; n < 5; ++n) simulation.step();
     simulation.pin(cloth, 7);
     simulation.move_pin(cloth, 7, Vec3(9, 9, 9));
-    simulation.pin(cloth, 7);  // forgets the target
+    simulation.pin(cloth, 7);  // removes the target
     const Vec3 held = simulation.positions(cloth)[7];
     CHECK(simulation.velocities(cloth)[7] == Vec3::Zero());
     REQUIRE(simulation.step().ok());
     CHECK(simulation.positions(cloth)[7] == held);
 }
 
-TEST_CASE("A plane that moves up and sideways takes the cloth along and ends where it was sent") {
+TEST_CASE("A plane that moves up and sideways carries the cloth along and ends at its target") {
     PlaneScene scene({.measure = StepMeasures::all});
     for (int n = 0; n < 60; ++n) REQUIRE(scene.simulation.step().ok());  // at rest on the plane
     double before = 0.0;
@@ -158,7 +158,7 @@ TEST_CASE("An obstacle that drives through held cloth fails and stays where it w
     CHECK(scene.simulation.step().ok());
 }
 
-TEST_CASE("Pins that carry a whole sheet do the work that its energy gains, in explicit schemes too") {
+TEST_CASE("The work of pins that carry a whole sheet is its gain of energy, in explicit schemes too") {
     for (const Scheme scheme : {Scheme::symplectic_euler, Scheme::rk4}) {
         Simulation simulation({.time_step = 1e-3, .scheme = scheme, .measure = StepMeasures::all});
         const ClothId cloth = simulation.add_cloth(make_grid(0.5, 0.5, 3, 3), sheet_fabric());
@@ -215,7 +215,7 @@ TEST_CASE("Calls with wrong values are refused and change nothing") {
     CHECK(s.step().dt == 1.0 / 60.0);
 }
 
-TEST_CASE("Velocities set on pinned vertices are not taken over") {
+TEST_CASE("Velocities set on pinned vertices are ignored") {
     Simulation simulation(StepSettings{});
     const ClothId cloth = simulation.add_cloth(make_grid(0.5, 0.5, 3, 3), sheet_fabric());
     simulation.pin(cloth, 1);
@@ -224,7 +224,7 @@ TEST_CASE("Velocities set on pinned vertices are not taken over") {
     CHECK(simulation.velocities(cloth)[2] == Vec3(1, 2, 3));
 }
 
-TEST_CASE("What stands in the way of a refused start may be moved away, the obstacle or the pin") {
+TEST_CASE("An obstacle or a pin that caused a refused start may be moved away") {
     for (const bool by_pin : {false, true}) {
         CAPTURE(by_pin);
         PlaneScene scene({.start = StartRule::refuse}, std::make_unique<LevelDetector>());
@@ -235,7 +235,7 @@ TEST_CASE("What stands in the way of a refused start may be moved away, the obst
         const Pose above{.translation = Vec3(0, place.y() + 0.001, 0)};
         const ObstacleId shelf = s.add_obstacle(make_plane(1.0), above, {.name = "shelf"});
         for (int n = 0; n < 2; ++n) CHECK(mentions(scene_error([&] { s.step(); }), {"inside shelf"}));
-        // What is not in the way waits for the next step.
+        // Other obstacles wait for the next step.
         s.move_obstacle(scene.plane, {.translation = Vec3(0, -0.01, 0)});
         CHECK(s.obstacle_pose(scene.plane).translation == Vec3::Zero());
         s.move_obstacle(shelf, {.translation = Vec3(0, -1, 0)});
@@ -250,13 +250,13 @@ TEST_CASE("What stands in the way of a refused start may be moved away, the obst
             CHECK(s.obstacle_pose(shelf).translation.y() == -1.0);
         }
         CHECK(s.step().ok());
-        // From now on it moves in the steps again.
+        // From here on it moves in the steps again.
         s.move_obstacle(shelf, {.translation = Vec3(0, -2, 0)});
         CHECK(s.obstacle_pose(shelf).translation.y() > -2.0);
     }
 }
 
-TEST_CASE("A state that is restored was not refused: obstacles move in steps again") {
+TEST_CASE("A restored state was not refused: obstacles move in steps again") {
     PlaneScene scene({.start = StartRule::refuse});
     Simulation& s = scene.simulation;
     const Pose far_below{.translation = Vec3(0, -1, 0)};
@@ -272,7 +272,7 @@ TEST_CASE("A state that is restored was not refused: obstacles move in steps aga
     CHECK(s.obstacle_pose(shelf).translation.y() == -2.0);
 }
 
-TEST_CASE("A simulation that was moved from says so whatever is asked of it, and may be assigned to") {
+TEST_CASE("A moved-from simulation reports so in every call, and may be assigned to") {
     PlaneScene scene;
     Simulation taken(std::move(scene.simulation));
     CHECK(mentions(scene_error([&] { scene.simulation.step(); }), {"moved from"}));

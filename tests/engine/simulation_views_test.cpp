@@ -54,7 +54,7 @@ TEST_CASE("Views have one entry a vertex and show the cloth at its pose") {
 TEST_CASE("Normals are those of the present state, in the user's order, into a vector or the caller's memory") {
     Simulation simulation(StepSettings{});
     TriangleMesh sheet = make_grid(0.4, 0.3, 6, 5);
-    sheet.grid_columns = sheet.grid_rows = 0;  // another order inside
+    sheet.grid_columns = sheet.grid_rows = 0;  // another internal order
     simulation.add_cloth(make_grid(0.3, 0.3, 3, 3), sheet_fabric(), {.translation = Vec3(0, 1, 0)});
     const ClothId cloth = simulation.add_cloth(sheet, free_fabric(), {}, "sheet");
     simulation.pin(cloth, 0);
@@ -107,7 +107,7 @@ TEST_CASE("Between two steps positions lie on straight lines from one state to t
     }
 }
 
-TEST_CASE("Where a cloth was placed nothing lies between, and the others keep what they have") {
+TEST_CASE("Placing a cloth ends its interpolation, and the others keep theirs") {
     Simulation simulation(StepSettings{});
     const ClothId placed = simulation.add_cloth(make_grid(0.3, 0.3, 3, 3), sheet_fabric());
     const ClothId other = simulation.add_cloth(make_grid(0.3, 0.3, 3, 3), sheet_fabric(), {.translation = Vec3(0, 1, 0)});
@@ -139,7 +139,7 @@ TEST_CASE("Where a cloth was placed nothing lies between, and the others keep wh
     CHECK(at_start(other) != now(other));
 }
 
-TEST_CASE("After a restored state and a failed step nothing lies between") {
+TEST_CASE("After a restored state and a failed step there is nothing to interpolate") {
     PlaneScene scene;
     Simulation& s = scene.simulation;
     s.keep_previous_positions();
@@ -171,7 +171,7 @@ TEST_CASE("Keeping positions changes no bit of any step") {
     CHECK(plain.simulation.save() == kept.simulation.save());
 }
 
-TEST_CASE("Contact loads tell where they act: at the vertex, and on the plane below it") {
+TEST_CASE("Contact loads state where they act: at the vertex, and on the plane below it") {
     PlaneScene scene;
     for (int n = 0; n < 30; ++n) REQUIRE(scene.simulation.step().ok());
     const std::vector<ContactLoad> loads = scene.simulation.contact_loads(scene.cloth);
@@ -183,7 +183,7 @@ TEST_CASE("Contact loads tell where they act: at the vertex, and on the plane be
     }
 }
 
-TEST_CASE("Torque on an obstacle is asked for about a point, of an obstacle that there is") {
+TEST_CASE("Torque on an obstacle is computed about a point, of an existing obstacle") {
     PlaneScene scene;
     CHECK(scene.simulation.torque_on(scene.plane, Vec3(1, 2, 3)) == Vec3::Zero());
     for (int n = 0; n < 30; ++n) REQUIRE(scene.simulation.step().ok());
@@ -239,7 +239,7 @@ TEST_CASE("The state hash depends on every bit of positions and velocities") {
     CHECK(hash_with(swapped, velocities) != hash);
 }
 
-TEST_CASE("Pinned vertices are told ascending, by the numbers of the mesh") {
+TEST_CASE("Pinned vertices are listed in ascending order, by the numbers of the mesh") {
     Simulation simulation(StepSettings{});
     const ClothId first = simulation.add_cloth(make_grid(1.0, 1.0, 40, 40), sheet_fabric());  // large enough for another order
     const ClothId second = simulation.add_cloth(make_grid(1.0, 1.0, 3, 3), sheet_fabric(), {.translation = Vec3(0, 1, 0)});

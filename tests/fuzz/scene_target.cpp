@@ -12,7 +12,7 @@
 namespace percale::fuzz {
 namespace {
 
-constexpr int most_vertices = 40, most_parts = 3, most_threads = 2, most_iterations = 2;
+constexpr int max_vertices = 40, max_parts = 3, max_threads = 2, max_iterations = 2;
 
 /// Beside the scene lie two meshes, so that scenes with meshes are built, too.
 const scenes::test::TestFolder& folder() {
@@ -40,8 +40,8 @@ bool is_small(const scenes::Scene& scene) {
         here = here && stays_in_folder(cloth.mesh);
     }
     for (const ObstacleSpec& obstacle : scene.obstacles) here = here && stays_in_folder(obstacle.mesh);
-    return here && vertices <= most_vertices && scene.cloths.size() <= most_parts && scene.obstacles.size() <= most_parts &&
-           scene.step.threads <= most_threads;
+    return here && vertices <= max_vertices && scene.cloths.size() <= max_parts && scene.obstacles.size() <= max_parts &&
+           scene.step.threads <= max_threads;
 }
 
 /// Adaptive steps and checked derivatives may take as long as was asked for.
@@ -54,11 +54,11 @@ void require_finite(const scenes::BuiltScene& built) {
     }
 }
 
-/// Of a step, s: some scenes take hundreds of Newton iterations, which sanitizers make slow.
-constexpr double most_seconds = 2.0;
+/// Time limit of a step, s: some scenes take hundreds of Newton iterations, which sanitizers make slow.
+constexpr double max_seconds = 2.0;
 
 void try_step(scenes::BuiltScene& built) {
-    built.simulation.set_time_limit(most_seconds);
+    built.simulation.set_time_limit(max_seconds);
     const StepReport report = built.simulation.step();
     require(!report.explanation().empty(), "a step says what happened");
     require_finite(built);
@@ -69,7 +69,7 @@ void try_scene(const std::string& text) {
     try {
         scenes::Scene scene = scenes::parse_scene(text, name);
         if (!is_small(scene)) return;
-        scene.step.newton_iterations = std::min(scene.step.newton_iterations, most_iterations);
+        scene.step.newton_iterations = std::min(scene.step.newton_iterations, max_iterations);
         scenes::BuiltScene built = scenes::build_scene(scene);
         require(!scenes::plan_text(built).empty(), "a scene that builds has a plan");
         if (is_quick(scene.step)) try_step(built);

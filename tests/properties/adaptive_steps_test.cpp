@@ -6,7 +6,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/plane_detector.h"
 
-// time_step = "auto": the error at the end against what was asked for each second.
+// time_step = "auto": the error at the end against the requested error per second.
 
 namespace percale::test::adaptive_steps_test {
 namespace {
@@ -79,7 +79,7 @@ double rms_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
-/// Errors over what was asked for.
+/// Errors over the requested ones.
 void check_errors(const char* name, Run (*scene)(const StepSettings&), const std::vector<Vec3>& exact,
                   const std::vector<double>& tolerances) {
     std::printf("%-16s", name);
@@ -95,7 +95,7 @@ void check_errors(const char* name, Run (*scene)(const StepSettings&), const std
 
 }  // namespace
 
-TEST_CASE("Adaptive steps come through an impact, however little error is asked for") {
+TEST_CASE("Adaptive steps pass an impact, however small the requested error is") {
     for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
         StepSettings settings{.adaptive = true, .tolerance = tolerance, .scheme = Scheme::tr_bdf2};
         Simulation simulation(settings, std::make_unique<PlaneDetector>());
@@ -108,13 +108,13 @@ TEST_CASE("Adaptive steps come through an impact, however little error is asked 
     }
 }
 
-TEST_CASE("Adaptive TR-BDF2 errs by no more than three times what was asked for", "[law]") {
+TEST_CASE("The error of adaptive TR-BDF2 is at most three times the requested one", "[law]") {
     const StepSettings fine{.time_step = 1e-4, .scheme = Scheme::rk4};
     check_errors("hanging sheet", hanging_sheet, hanging_sheet(fine).positions, {1e-2, 1e-3});
     check_errors("taut sheet", taut_sheet, taut_sheet(fine).positions, {1e-2, 1e-3, 1e-4});
 }
 
-TEST_CASE("Adaptive TR-BDF2 slides as steps a hundred times more exact do", "[law]") {
+TEST_CASE("Adaptive TR-BDF2 slides like steps a hundred times more exact", "[law]") {
     const Run exact = sliding_sheet({.adaptive = true, .tolerance = 1e-6, .scheme = Scheme::tr_bdf2});
     check_errors("sliding sheet", sliding_sheet, exact.positions, {1e-2, 1e-3});
 }

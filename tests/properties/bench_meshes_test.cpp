@@ -12,7 +12,7 @@
 namespace percale::test::bench_meshes_test {
 namespace {
 
-/// Sets of vertices that hang together by edges.
+/// Sets of vertices that are connected by edges.
 int pieces(const TriangleMesh& mesh) {
     std::vector<int> parent(mesh.vertices.size());
     std::iota(parent.begin(), parent.end(), 0);
@@ -81,7 +81,7 @@ int valences(const TriangleMesh& mesh) {
         std::count_if(found.begin(), found.end(), [&](auto pair) { return 20 * pair.second > valence.size(); }));
 }
 
-/// What all three have in common; `loops` open borders, `area` in m^2.
+/// Properties common to all three; `loops` open borders, `area` in m^2.
 void check_garment(const TriangleMesh& mesh, int wished, int loops) {
     INFO(wished << " vertices wished, " << mesh.vertices.size() << " made");
     CHECK_NOTHROW(check_mesh(mesh, "garment", true));

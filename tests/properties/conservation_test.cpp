@@ -8,7 +8,7 @@
 namespace percale::test::conservation_test {
 namespace {
 
-/// A free sheet, stretched and thrown about at random.
+/// A free sheet, stretched and with random velocities.
 struct ThrownSheet {
     Simulation simulation;
     ClothId cloth;
@@ -68,7 +68,7 @@ TEST_CASE("Symplectic Euler and implicit midpoint keep angular momentum, along-s
               change(Scheme::implicit_midpoint, 1.0 / 480.0, 100), 1e-9);
 }
 
-TEST_CASE("RK4 keeps the energy of an undamped free sheet, damping only takes from it", "[law]") {
+TEST_CASE("RK4 keeps the energy of an undamped free sheet, and damping only reduces it", "[law]") {
     ThrownSheet undamped({.time_step = 2e-5, .scheme = Scheme::rk4}, 0.0),
         damped({.time_step = 2e-5, .scheme = Scheme::rk4, .measure = StepMeasures::all}, 0.1);
     const double start = undamped.simulation.energy().total();
@@ -84,7 +84,7 @@ TEST_CASE("RK4 keeps the energy of an undamped free sheet, damping only takes fr
     CHECK(before < start - 0.01);
 }
 
-TEST_CASE("Springs far stiffer than the step do not answer what the solver leaves over", "[law]") {
+TEST_CASE("Springs far stiffer than the step do not amplify the solver's residual", "[law]") {
     for (const bool adaptive : {false, true}) {
         Fabric fabric = sheet_fabric();
         fabric.springs = {.structural = 1e8, .shear = 5e7, .bend = 1e6};

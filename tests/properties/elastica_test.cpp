@@ -58,7 +58,7 @@ double cantilever_drop(double gamma) {
     return drop;
 }
 
-/// A strip of some segments between clamped ones, one at its start or one at either end.
+/// A strip of some segments between clamped ones at its start or at both ends.
 struct Strip {
     int segments;
     bool along_z = false;
@@ -174,7 +174,7 @@ TEST_CASE("A cantilever's droop converges at second order to the heavy elastica,
     }
 }
 
-TEST_CASE("Bending springs have no stiffness to converge to: finer strips of the same springs droop further from the elastica") {
+TEST_CASE("Bending springs do not converge to a stiffness: finer strips of the same springs droop further from the elastica") {
     Fabric fabric = strip_fabric(8.0);
     fabric.bend_stiffness.reset();
     double before = 0.0;

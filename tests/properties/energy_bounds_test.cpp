@@ -1,4 +1,4 @@
-// How much energy a step of backward Euler can gain at most.
+// Upper bounds of the energy that a step of backward Euler can gain.
 #include <cmath>
 
 #include "tests/support/catch.h"

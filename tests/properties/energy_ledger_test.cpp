@@ -6,7 +6,7 @@
 #include "tests/support/laws.h"
 #include "tests/support/plane_detector.h"
 
-// What becomes of energy over whole runs.
+// Flows of energy over whole runs.
 namespace percale::test::energy_ledger_test {
 namespace {
 
@@ -17,7 +17,7 @@ struct Ledger {
     int halved = 0;
 };
 
-/// Makes the steps, `before_step` being told the time at each one's end.
+/// Makes the steps; `before_step` receives the time at the end of each one.
 template <class BeforeStep>
 Ledger run(Simulation& simulation, int steps, double dt, BeforeStep before_step) {
     Ledger ledger{.sum = simulation.energy()};
@@ -73,7 +73,7 @@ TEST_CASE("The energy ledger of a swinging sheet closes in every scheme", "[law]
     }
 }
 
-TEST_CASE("Backward Euler's loss vanishes with the step, what the material takes stays", "[law]") {
+TEST_CASE("Backward Euler's loss vanishes with the step, and the material's dissipation stays", "[law]") {
     double integrator[3] = {}, material[3] = {};
     for (int level = 0; level < 3; ++level) {
         const double dt = 1e-4 / (1 << level);
@@ -154,7 +154,7 @@ TEST_CASE("The energy ledger of TR-BDF2 closes in contact, with steps that adapt
     }
 }
 
-TEST_CASE("Friction takes what a sliding sheet loses, mu m g cos times its way", "[law]") {
+TEST_CASE("Friction dissipates mu m g cos times the way of a sliding sheet", "[law]") {
     const double mu = 0.2, angle = 0.5;
     StepSettings settings = measured(Scheme::backward_euler, 1.0 / 240.0);
     PlaneScene slope(settings, mu, angle, 0.0045);

@@ -21,7 +21,7 @@ SolverScene pair_of_masses(double stretch, double stiffness, double damping, con
 
 Vec3 span(const SolverScene& scene) { return scene.state.positions.at(0) - scene.state.positions.at(1); }
 
-/// Links whose ends are in general positions, thrown about.
+/// Links whose ends are in general positions, with random velocities.
 World thrown_links(const StepSettings& settings, double damping) {
     Random random(17);
     std::vector<Link> links = random_links(random, 8, 16);
@@ -29,7 +29,7 @@ World thrown_links(const StepSettings& settings, double damping) {
     for (Link& link : links) link.stiffness = 50.0;
     const std::vector<double> masses(8, 0.1);
     World world = make_world(linked_masses(masses, links), random_points(random, 8, 1.0), settings);
-    world.state.cloth.velocities = to_vectors(random_points(random, 8, 1.0));
+    world.state.cloth.velocities = to_vec3_arrays(random_points(random, 8, 1.0));
     return world;
 }
 
@@ -52,7 +52,7 @@ struct SpinningPair {
         scene.state.velocities.set(0, Vec3(0, 0, spin * length * m2 / (m1 + m2)));
         scene.state.velocities.set(1, Vec3(0, 0, -spin * length * m1 / (m1 + m2)));
     }
-    /// Of the angular momentum at the start.
+    /// Ratio to the angular momentum at the start.
     double momentum() const {
         const Vec3 rate = scene.state.velocities.at(0) - scene.state.velocities.at(1);
         return span(scene).cross(rate).norm() / (spin * length * length);
@@ -86,13 +86,13 @@ TEST_CASE("A damped pair follows the damped oscillator while its centre falls fr
     check_law("damped pair, RK4: distance of its centre from free fall, m", worst_centre, 1e-11);
 }
 
-TEST_CASE("Cloth with rusty springs falls as cloth with clean ones, in every scheme", "[law]") {
+TEST_CASE("Cloth with damped springs falls as cloth with undamped ones, in every scheme", "[law]") {
     for (const Scheme scheme : all_schemes) {
         const StepSettings settings{.time_step = 2e-3, .scheme = scheme, .newton_tolerance = 1e-10, .newton_iterations = 200};
         World clean = thrown_links(settings, 0.0), rusty = thrown_links(settings, 1.0);
         for (int n = 0; n < 200; ++n) REQUIRE((step(clean).ok() && step(rusty).ok()));
         const double apart = (clean.state.cloth.positions.at(0) - rusty.state.cloth.positions.at(0)).norm();
-        CHECK(apart > 0.01);  // the damping did something
+        CHECK(apart > 0.01);  // the damping had an effect
         check_law("rusty springs fall as clean ones, " + std::string(facts_of(scheme).word) + ": centres apart, m",
                   (centre(clean) - centre(rusty)).norm(), 1e-11);
     }
@@ -188,7 +188,8 @@ TEST_CASE("A short chain swings in its lowest mode with the first zero of the La
     std::vector<Link> list;
     std::vector<Vec3> places = {Vec3::Zero()};
     for (int i = 0; i < links; ++i) list.push_back({i, i + 1, link, k, 0.0});
-    // It hangs, stretched by the weight below, and is pushed in its mode: z_i = L_i(omega^2 l/g) counted from the free end.
+    // The chain hangs, stretched by the weight below, and is displaced in its mode: z_i = L_i(omega^2 l/g) counted from the free
+    // end.
     double exact = 0.0;
     for (const std::vector<double>& row : reference_table("chain_modes.csv")) {
         if (row[0] == links && row[1] == 1) exact = row[2];

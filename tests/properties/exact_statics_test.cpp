@@ -9,23 +9,23 @@
 #include "tests/support/laws.h"
 #include "tests/support/reference_table.h"
 
-// Exact answers about forces and equilibria.
+// Exact values of forces and equilibria.
 namespace percale::test::exact_statics_test {
 namespace {
 
 /// Spring forces of a model at some positions, N.
 std::vector<Vec3> spring_forces(const ClothModel& model, const std::vector<Vec3>& places) {
-    const Vectors positions = to_vectors(places);
+    const Vec3Arrays positions = to_vec3_arrays(places);
     StepSprings springs;
     set_step_springs(compute, {model.adjacency, positions, DampingForm::velocity, 1.0}, springs);
     SpringTerms terms;
-    Vectors forces, still;
+    Vec3Arrays forces, still;
     for (auto* vectors : {&forces, &still}) vectors->resize(model.vertex_count());
     evaluate_springs(compute, springs, {positions, still, 1.0}, false, forces, terms);
     return to_points(forces, model.vertex_count());
 }
 
-/// What the part at x < 0 of a sheet pulls the other with when the sheet is strained evenly: in its plane, x and z.
+/// The pull of the part at x < 0 of a uniformly strained sheet on the other part: in its plane, x and z.
 Eigen::Vector2d pull_across(const TriangleMesh& sheet, const Fabric& fabric, const Eigen::Matrix2d& strain) {
     const ClothModel model = cloth_model(sheet, fabric);
     std::vector<Vec3> places = model.rest;
@@ -45,8 +45,8 @@ struct Moduli {
     double c11, c12, c66;  // N/m
 };
 
-/// Measured from the forces across a cut: a sheet of more rows less one of fewer, so that edges drop out. `higher` is what the
-/// first is wider, m.
+/// Measured from the forces across a cut: a sheet of more rows less one of fewer, so that edges cancel. `higher` is the
+/// difference of their widths, m.
 Moduli moduli(const TriangleMesh& wide, const TriangleMesh& narrow, double higher, const Fabric& fabric) {
     const double e = 1e-7;
     const auto traction = [&](const Eigen::Matrix2d& strain) -> Eigen::Vector2d {

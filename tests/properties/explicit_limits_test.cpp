@@ -16,7 +16,7 @@ namespace {
 constexpr int links = 6;  // of a chain along x, its ends held
 constexpr double mass = 0.02, stiffness = 300.0, rest = 0.1;
 
-/// Of the chain's fastest mode along itself: 2 sqrt(k/m) sin(pi n/(2 (n + 1))), n = links - 1 masses.
+/// Frequency of the chain's fastest longitudinal mode: 2 sqrt(k/m) sin(pi n/(2 (n + 1))), n = links - 1 masses.
 double fastest() { return 2.0 * std::sqrt(stiffness / mass) * std::sin(0.5 * std::numbers::pi * (links - 1) / links); }
 
 /// Springs damped in proportion to their stiffness, so that the fastest mode has the damping ratio zeta.
@@ -64,7 +64,7 @@ TEST_CASE("The measured longest stable step of explicit schemes is that of the t
     }
 }
 
-TEST_CASE("What a simulation expects of explicit schemes is the limit that is measured, damping included", "[law]") {
+TEST_CASE("The predicted limit of explicit schemes is the measured one, damping included", "[law]") {
     for (const Scheme scheme : {Scheme::symplectic_euler, Scheme::rk4}) {
         for (const double zeta : {0.2, 2.0}) {
             const World hung = chain(scheme, zeta, 1e-3);

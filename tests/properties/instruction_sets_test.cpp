@@ -53,7 +53,7 @@ World scene_world(const Scene& scene, const Kernels& kernels) {
     return world;
 }
 
-/// The hash of all states and of the energies that the reports tell.
+/// The hash of all states and of the energies in the reports.
 std::uint64_t run(const Scene& scene, const Kernels& kernels) {
     World world = scene_world(scene, kernels);
     Hash hash;

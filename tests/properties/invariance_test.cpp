@@ -34,7 +34,7 @@ int steps_of(Scheme scheme) {
 
 std::string word(Scheme scheme) { return std::string(facts_of(scheme).word); }
 
-/// Iterations enough that no step is halved: near their limit rounding would decide it.
+/// Enough iterations that no step is halved: near their limit rounding would decide it.
 StepSettings tight(Scheme scheme) {
     return {.time_step = facts_of(scheme).implicit ? 1.0 / 60.0 : 5e-4,
             .scheme = scheme,
@@ -79,7 +79,7 @@ TEST_CASE("Renumbering vertices and triangles renumbers the result", "[law]") {
 }
 
 TEST_CASE("A mirrored scene moves mirrored", "[law]") {
-    const int steps = 12;  // later the sheet buckles, which way rounding decides
+    const int steps = 12;  // later the sheet buckles, and rounding decides which way
     TriangleMesh mirrored = free_sheet();
     for (Vec3& x : mirrored.vertices) x.x() = -x.x();
     for (Triangle& t : mirrored.triangles) std::swap(t[1], t[2]);
@@ -90,7 +90,7 @@ TEST_CASE("A mirrored scene moves mirrored", "[law]") {
 }
 
 TEST_CASE("Lengths, times and masses may be measured in other units", "[law]") {
-    // Lengths by s, time by sqrt(s), spring constants by their own share: the same motion, s times as large.
+    // Lengths by s, time by sqrt(s), spring constants by their own factor: the same motion, s times as large.
     const double s = 10.0;
     const auto sheet = [&](double scale) {
         Simulation simulation({.time_step = std::sqrt(scale) / 60.0, .newton_tolerance = 1e-11});

@@ -1,4 +1,4 @@
-// Moduli of springs and membranes, as energies of uniform strains tell them.
+// Moduli of springs and membranes, from the energies of uniform strains.
 
 #include <cmath>
 
@@ -46,12 +46,12 @@ Moduli lattice_moduli(const Fabric& fabric) {
         [&](const Eigen::Matrix2d& gradient) { return lattice_density(model, 24, deformed(grid.vertices, gradient)); });
 }
 
-/// The mean over a sheet without its outermost edges' share: edges there have one triangle.
+/// The mean over a sheet without the part of its outermost edges: edges there have one triangle.
 Moduli sheet_moduli(const Fabric& fabric) {
     const TriangleMesh grid = make_grid(1.0, 1.0, 9, 9);
     const ClothModel model = cloth_model(grid, fabric);
     return measured([&](const Eigen::Matrix2d& gradient) {
-        const Vectors places = to_vectors(deformed(grid.vertices, gradient));
+        const Vec3Arrays places = to_vec3_arrays(deformed(grid.vertices, gradient));
         return elastic_energy(model.springs, places) + membrane_energy(model.membrane, places);
     });
 }
@@ -105,7 +105,7 @@ TEST_CASE("Square grid of springs: C11 = ks + kd + 4 kb, C12 = C66 = kd, isotrop
     CHECK(isotropic.c11 - isotropic.c12 == Approx(2.0 * isotropic.c66).epsilon(1e-4));
 }
 
-TEST_CASE("Triangle springs have the stretch and shear moduli that were asked for, whatever Poisson's ratio") {
+TEST_CASE("Triangle springs have the requested stretch and shear moduli, whatever Poisson's ratio") {
     for (const double nu : {-0.4, 0.0, 0.3, 0.7}) {
         const Moduli m = sheet_moduli(moduli_fabric(80.0, 80.0, 11.0, nu));
         CHECK(young(m) == Approx(80.0).epsilon(1e-4));
@@ -122,14 +122,14 @@ TEST_CASE("Van Gelder's springs on a grid of alternating diagonals are 1.20 time
     CHECK(m.c12 / m.c11 == Approx(0.2).epsilon(1e-4));
 }
 
-TEST_CASE("Where triangles are slivers steps stay within newton_share of the error of the time step, or a third", "[law]") {
+TEST_CASE("Where triangles are slivers steps stay within newton_error_ratio of the error of the time step, or a third", "[law]") {
     const StepSettings exact{.linear_solver = LinearSolver::direct},
         half{.time_step = 1.0 / 120.0, .linear_solver = LinearSolver::direct};
     for (const double aspect : {3.0, 10.0, 30.0}) {
         const std::vector<Vec3> places = hung_with_slivers(aspect, exact);
         const double time_error = largest_distance(places, hung_with_slivers(aspect, half));
         const double by_default = largest_distance(places, hung_with_slivers(aspect, {}));
-        const double by_quarter = largest_distance(places, hung_with_slivers(aspect, {.newton_share = 0.25}));
+        const double by_quarter = largest_distance(places, hung_with_slivers(aspect, {.newton_error_ratio = 0.25}));
         const std::string name = "slivers " + std::to_string(static_cast<int>(aspect)) + " : 1, moduli: ";
         check_law(name + "default steps from exact ones, share of the time error", by_default / time_error, 1.0);
         check_law(name + "steps of a quarter from exact ones, share of the time error", by_quarter / time_error, 0.33);

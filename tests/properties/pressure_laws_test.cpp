@@ -38,7 +38,7 @@ double volume_of(const TriangleMesh& mesh, std::span<const Vec3> x) {
     return volume;
 }
 
-/// The stretch at which a filled sphere comes to rest.
+/// The stretch at which a sphere with gas comes to rest.
 double rest_stretch(const Fabric& fabric, int level, double start_stretch = 1.0) {
     Simulation simulation({.time_step = 1.0 / 60.0, .measure = StepMeasures::all, .gravity = Vec3::Zero()});
     const TriangleMesh mesh = make_sphere(radius, level);
@@ -58,7 +58,7 @@ double rest_stretch(const Fabric& fabric, int level, double start_stretch = 1.0)
 
 }  // namespace
 
-TEST_CASE("A sphere of known modulus is stretched by pressure as its membrane says, the better the finer its mesh", "[law]") {
+TEST_CASE("Pressure stretches a sphere of known modulus by the law of its membrane, the better the finer its mesh", "[law]") {
     Fabric fabric = rubber();
     fabric.pressure = sphere_pressure();
     const double coarse = std::abs(rest_stretch(fabric, 2) - stretch), fine = std::abs(rest_stretch(fabric, 3) - stretch);
@@ -66,8 +66,7 @@ TEST_CASE("A sphere of known modulus is stretched by pressure as its membrane sa
     check_law_between("the same with 162 vertices, times as large (4: second order)", coarse / fine, 3.0, 5.0);
 }
 
-TEST_CASE("Gas that would press a sphere to a known stretch does, from a ball that is too small and from one too large",
-          "[law]") {
+TEST_CASE("Gas with a known rest stretch of a sphere reaches it, from a ball that is too small and from one too large", "[law]") {
     // p_0 (V_0/V - 1) = p at the volume of that stretch.
     Fabric fabric = rubber();
     const double volume = 4.0 / 3.0 * std::numbers::pi * std::pow(radius * stretch, 3);
@@ -106,7 +105,7 @@ TEST_CASE("A ball of gas that falls on a plate keeps its volume, and the ledger 
     }
 }
 
-TEST_CASE("Explicit schemes are stable up to the step that the plan tells, which gas makes shorter", "[law]") {
+TEST_CASE("Explicit schemes are stable up to the step of the plan, which gas makes shorter", "[law]") {
     Fabric fabric = rubber();
     fabric.damping_time = 0.0;
     const auto plan_step = [&](double time_step) {

@@ -1,4 +1,4 @@
-// Cloth whose rest shape is not its start.
+// Cloth whose rest shape differs from its start.
 
 #include <cmath>
 
@@ -57,7 +57,7 @@ double energy_of(const TriangleMesh& mesh, const Fabric& fabric, const RestShape
     return simulation.energy().elastic;
 }
 
-/// Force per width and strain of a strip that is pulled along its length, from the energy that it stores: 1/2 E e^2 area.
+/// Ratio of force per width to strain of a strip that is pulled along its length, from its energy: 1/2 E e^2 area.
 double pulled_modulus(const Fabric& fabric, const Vec3& warp) {
     constexpr double strain = 0.01, length = 0.3, width = 0.15;
     const TriangleMesh mesh = strip();
@@ -78,7 +78,7 @@ double pulled_modulus(const Fabric& fabric, const Vec3& warp) {
 
 }  // namespace
 
-TEST_CASE("A rest shape that is the start changes nothing but rounding", "[slow]") {
+TEST_CASE("A rest shape equal to the start changes nothing but rounding", "[slow]") {
     const TriangleMesh mesh = strip();
     for (const Fabric& fabric : {knitted(), free_fabric(), even()}) {
         std::vector<std::vector<Vec3>> ends;
@@ -94,7 +94,7 @@ TEST_CASE("A rest shape that is the start changes nothing but rounding", "[slow]
     }
 }
 
-TEST_CASE("Panels laid out apart store nothing where they are joined flat, and what the joined sheet stores where it is bent") {
+TEST_CASE("Panels laid out apart store no energy where they are joined flat, and that of the joined sheet where it is bent") {
     const TriangleMesh flat = strip();
     TriangleMesh bent = flat;
     for (Vec3& x : bent.vertices) x = Vec3(0.1 * std::sin(x.x() / 0.1), 0.1 * std::cos(x.x() / 0.1), x.z());

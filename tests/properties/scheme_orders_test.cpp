@@ -8,7 +8,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/laws.h"
 
-// What each scheme promises, measured: orders, free fall, momentum.
+// Properties of each scheme, measured: orders, free fall, momentum.
 
 namespace percale::test::scheme_orders_test {
 namespace {
@@ -35,7 +35,7 @@ std::vector<Vec3> string_after(StepSettings settings, double time, int steps) {
     return to_points(world.state.cloth.positions, world.scene.model.vertex_count());
 }
 
-/// Three masses thrown about, nothing held, no gravity.
+/// Three masses with random velocities, nothing held, no gravity.
 World thrown_masses(Scheme scheme, double time_step) {
     World world =
         make_world(linked_masses({0.2, 0.3, 0.1}, {{0, 1, 1.0, 40.0, 0.1}, {1, 2, 0.7, 60.0, 0.1}, {2, 0, 0.8, 50.0, 0.1}}),
@@ -64,7 +64,7 @@ Vec3 angular_momentum(const World& world) {
 
 }  // namespace
 
-TEST_CASE("Each scheme has the order that the table says, over five halvings", "[law]") {
+TEST_CASE("Each scheme has the order of the table, over five halvings", "[law]") {
     constexpr double time = 0.2;
     const std::vector<Vec3> exact = string_after({.scheme = Scheme::rk4}, time, 6400);
     for (const SchemeFacts& facts : scheme_table()) {
@@ -83,7 +83,7 @@ TEST_CASE("Each scheme has the order that the table says, over five halvings", "
     }
 }
 
-TEST_CASE("In free fall Euler's schemes are off by g dt^2 n/2 either way, all of higher order exact", "[law]") {
+TEST_CASE("In free fall the error of Euler's schemes is g dt^2 n/2 either way, and all of higher order are exact", "[law]") {
     for (const SchemeFacts& facts : scheme_table()) {
         const TriangleMesh grid = make_grid(1.0, 1.0, 3, 3);
         World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices,
@@ -112,7 +112,7 @@ TEST_CASE("Every scheme keeps linear momentum, symplectic Euler and the implicit
         const double change = (angular_momentum(world) - angular).norm() / angular.norm();
         const bool keeps = facts.scheme == Scheme::symplectic_euler || facts.scheme == Scheme::implicit_midpoint;
         const std::string name = "thrown masses, " + std::string(facts.word) + ": relative change of angular momentum";
-        keeps ? check_law(name, change, 1e-10) : tell_law(name, figure(change), "none");
+        keeps ? check_law(name, change, 1e-10) : report_law(name, figure(change), "none");
     }
 }
 

@@ -44,9 +44,9 @@ Vec3 momentum(const Simulation& simulation, ClothId cloth) {
     return sum;
 }
 
-/// How far two triangles face to face, three point masses each, are from the exact gap at 0.2 s while seams of 0.1 N/m close over
-/// `over`, m; and the work reported from the exact one, J. The corners of the first lie over the other's edges, at this share of
-/// them. With the reduced mass mu, w^2 = k/mu and L = L0 (1 - t/T)
+/// The error in the gap of two triangles face to face, three point masses each, at 0.2 s while seams of 0.1 N/m close over
+/// `over`, m; and that of the reported work, J. The corners of the first lie over the other's edges, at this fraction of them.
+/// With the reduced mass mu, w^2 = k/mu and L = L0 (1 - t/T)
 ///     gap = L + L0/(T w) sin w t.
 struct DrawnTogether {
     double gap_error = 0.0, work_error = 0.0;
@@ -102,7 +102,7 @@ TEST_CASE("Schemes keep their order, in gap and in work, while a seam closes", "
 TEST_CASE("Stiff seams begin to close without a jolt in TR-BDF2 and the trapezoid") {
     for (const Scheme scheme : {Scheme::tr_bdf2, Scheme::trapezoid}) {
         Tube tube({.scheme = scheme, .measure = StepMeasures::all, .gravity = Vec3::Zero()});
-        // Each side goes at 0.1 m/s; twice that in all of the cloth is far more than a smooth start gives.
+        // Each side moves at 0.1 m/s; twice that in all of the cloth is far more than a smooth start gives.
         const double most = 0.5 * 2.0 * 0.2 * 0.3 * 0.4 * 0.2 * 0.2;
         for (int n = 0; n < 5; ++n) CHECK(tube.simulation.step().energy.kinetic < most);
     }
@@ -164,7 +164,7 @@ TEST_CASE("Sides of unequal sampling are sewn vertex to point, and momentum is k
     const std::vector<double> gaps = simulation.seam_gaps(seam);
     CHECK(gaps.size() == 14);
     CHECK(*std::max_element(gaps.begin(), gaps.end()) < 2e-4);
-    // A vertex in the middle of an edge holds what the edge's ends hold.
+    // A vertex in the middle of an edge carries as much as the edge's ends.
     const auto x = simulation.positions(coarse);
     const auto& [vertex, from, to, share] = stitches[6];
     CHECK((simulation.positions(fine)[vertex] - ((1.0 - share) * x[from] + share * x[to])).norm() ==
@@ -197,12 +197,12 @@ TEST_CASE("Welded seams that carry a weight leave no gap at rest, and the ledger
     double widest = 0.0, hanging = 0.0;
     for (const double gap : simulation.seam_gaps(seam)) widest = std::max(widest, gap);
     for (const double mass : simulation.masses(lower)) hanging += 9.81 * mass;
-    // A spring alone would be drawn by the weight.
+    // A spring alone would be stretched by the weight.
     if (!weld) CHECK(widest > 0.5 * hanging / 7.0 / 20.0);
     if (weld) CHECK(widest < 3e-5);
 }
 
-TEST_CASE("What keeps a welded seam open meets a bounded force, and a restored simulation goes on holding with it") {
+TEST_CASE("An obstacle that keeps a welded seam open meets a bounded force, and a restored simulation keeps its holds") {
     Simulation simulation({.gravity = Vec3::Zero()});
     const ClothId cloth = simulation.add_cloth(make_grid(0.3, 0.3, 4, 4), sheet_fabric());
     for (int v = 0; v < 16; ++v) {

@@ -44,7 +44,7 @@ const std::vector<Spring>& springs() {
     return list;
 }
 
-/// The system that a step is made of by hand.
+/// The system of a step written by hand.
 struct Lecture {
     Vector mass;  // 18, that of a particle three times
     double damping;
@@ -213,7 +213,7 @@ TEST_CASE("Six particles in two rows have seven structural springs, four for she
     CHECK(std::accumulate(sheet.mass.begin(), sheet.mass.end(), 0.0) == Approx(0.2 * 2.0 * apart * apart));
 }
 
-TEST_CASE("Six particles: a step of every scheme is the one made by hand", "[law]") {
+TEST_CASE("Six particles: a step of every scheme equals the one made by hand", "[law]") {
     const double h = 0.002;
     for (const SchemeFacts& facts : scheme_table()) {
         const double damping = facts.implicit ? 0.0 : 0.05;

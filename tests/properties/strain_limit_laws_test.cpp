@@ -34,7 +34,7 @@ struct Hanging {
     }
 };
 
-/// Steps that must succeed; the largest error of their ledgers.
+/// Makes steps that must succeed; returns the largest error of their ledgers.
 double worst_closure(Simulation& simulation, int steps) {
     double worst = 0.0;
     for (int n = 0; n < steps; ++n) {
@@ -48,7 +48,7 @@ double worst_closure(Simulation& simulation, int steps) {
 
 }  // namespace
 
-TEST_CASE("A strip that hangs is strained by what its load says, or by its limit") {
+TEST_CASE("A strip that hangs has the strain of its load, or of its limit") {
     for (const double dt : {1.0 / 60.0, 1.0 / 240.0}) {
         Hanging strip(hanging_fabric(), {.time_step = dt, .kinetic_damping = true});
         worst_closure(strip.simulation, static_cast<int>(std::lround(6.0 / dt)));
@@ -81,7 +81,7 @@ TEST_CASE("The largest strain of a cloth is its own") {
     CHECK(strip.simulation.largest_strain() == Approx(free).epsilon(1e-12));
 }
 
-TEST_CASE("The ledger closes and every derivative fits while limits come and go") {
+TEST_CASE("The ledger closes and every derivative fits while limits become active and inactive") {
     for (const Scheme scheme : {Scheme::backward_euler, Scheme::tr_bdf2}) {
         for (const bool moduli : {false, true}) {
             Fabric fabric = hanging_fabric();
@@ -114,7 +114,7 @@ TEST_CASE("A simulation with limits resumes in every bit, and not with another l
     CHECK_FALSE(scene_error([&] { other.simulation.restore(saved); }).empty());
 }
 
-TEST_CASE("Schemes that take no contact take no limit") {
+TEST_CASE("Schemes without contact take no limit") {
     Hanging strip(hanging_fabric(), {.time_step = 1e-4, .scheme = Scheme::rk4});
     CHECK(mentions(scene_error([&] { strip.simulation.step(); }), {"rk4", "strain limit", "backward_euler"}));
 }

@@ -10,7 +10,7 @@
 #include "tests/support/cloth_scenes.h"
 #include "tests/support/laws.h"
 
-// Local truncation error: what one step from an exact state is off by. A scheme of order p makes an error of h^(p + 1) a step
+// Local truncation error: the error of one step from an exact state. A scheme of order p makes an error of h^(p + 1) a step
 // (Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, chapter II.3).
 
 namespace percale::test::truncation_error_test {
@@ -22,7 +22,7 @@ struct System {
     std::vector<Vec3> places, velocities;
     std::vector<int> held;
     double step;    // s, the longest of those tried
-    double steady;  // s, from where on its motion is general
+    double steady;  // s, the time from which its motion is general
 };
 
 /// Two masses on a damped spring, which they stretch along its line.
@@ -71,7 +71,7 @@ World start_of(const System& system, StepSettings settings) {
     return world;
 }
 
-/// The state after some time, by steps of RK4 so short that rounding is what is left of their error.
+/// The state after some time, by steps of RK4 so short that only rounding is left of their error.
 ClothState exact_state(const System& system, double time) {
     constexpr int steps = 4000;
     World world = start_of(system, {.time_step = time / steps, .scheme = Scheme::rk4});
@@ -81,7 +81,7 @@ ClothState exact_state(const System& system, double time) {
     return world.state.cloth;
 }
 
-/// Positions and velocities, the latter times 0.1 s, that one step from the exact state is off by, m.
+/// The error of one step from the exact state in positions and velocities, the latter times 0.1 s, m.
 double step_error(const System& system, Scheme scheme, double h) {
     World world = start_of(system, {.time_step = h, .scheme = scheme});
     world.state.cloth = exact_state(system, system.steady);
@@ -90,12 +90,12 @@ double step_error(const System& system, Scheme scheme, double h) {
         world.state.past.earlier.positions = earlier.positions;
         world.state.past.earlier.velocities = earlier.velocities;
         world.state.past.earlier_length = h;
-        world.state.past.acceleration.resize(world.scene.model.vertex_count());  // for the stopping rule alone, which is off
+        world.state.past.acceleration.resize(world.scene.model.vertex_count());  // only for the stopping rule, which is off
     }
     REQUIRE(step(world).ok());
     const ClothState exact = exact_state(system, system.steady + h);
     const int count = world.scene.model.vertex_count();
-    const auto off = [count](const Vectors& a, const Vectors& b) {
+    const auto off = [count](const Vec3Arrays& a, const Vec3Arrays& b) {
         return largest_difference(to_points(a, count), to_points(b, count));
     };
     return std::max(off(world.state.cloth.positions, exact.positions), 0.1 * off(world.state.cloth.velocities, exact.velocities));
@@ -103,7 +103,7 @@ double step_error(const System& system, Scheme scheme, double h) {
 
 }  // namespace
 
-TEST_CASE("One step from an exact state is off by a power of the step one higher than the scheme's order", "[law]") {
+TEST_CASE("The error of one step from an exact state is a power of the step one higher than the scheme's order", "[law]") {
     for (const System& system : {damped_pair(), taut_string(), pendulum()}) {
         for (const SchemeFacts& facts : scheme_table()) {
             double coarser = step_error(system, facts.scheme, system.step), slope = 0.0;

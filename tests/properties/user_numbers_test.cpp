@@ -1,4 +1,4 @@
-// Free meshes lie in another order in memory than in the user's mesh. Whatever a caller sees or says has the user's numbers.
+// Free meshes have another order in memory than in the user's mesh. All input and output of a caller has the user's numbers.
 #include "engine/mesh/lumped_mass.h"
 #include "tests/support/bench_meshes.h"
 #include "tests/support/catch.h"
@@ -25,7 +25,7 @@ struct TwoCloths {
     int count() const { return static_cast<int>(mesh.vertices.size()); }
 };
 
-/// The plane, or a crossing that it makes up.
+/// The plane, with an optional invented crossing.
 class CrossingDetector : public PlaneDetector {
 public:
     StartFault check_start(std::span<const Vec3>) override {
@@ -84,7 +84,7 @@ TEST_CASE("Views show the user's vertices at every time") {
     const std::span<const double> masses = s.masses(scene.sheet);
     CHECK(std::vector<double>(masses.begin(), masses.end()) == lumped_masses(rest, sheet_fabric().area_density));
     REQUIRE(s.step().ok());
-    // All fall alike, but for rounding.
+    // All fall alike, except for rounding.
     for (int i = 0; i < scene.count(); ++i) {
         CHECK((s.positions(scene.sheet)[i] - start[i] - Vec3(0, -9.81 / 3600, 0)).norm() < 1e-9);
     }
@@ -92,7 +92,7 @@ TEST_CASE("Views show the user's vertices at every time") {
     CHECK((s.positions(scene.grid)[0] - Vec3(1.9, 0.02 - 9.81 / 3600, -0.1)).norm() < 1e-9);
 }
 
-TEST_CASE("What is set on a free mesh is read back, vertex by vertex") {
+TEST_CASE("Data set on a free mesh are read back, vertex by vertex") {
     TwoCloths scene;
     Simulation& s = scene.simulation;
     Random random(3);
@@ -109,7 +109,7 @@ TEST_CASE("What is set on a free mesh is read back, vertex by vertex") {
     CHECK(copy(s.velocities(scene.grid)) == std::vector<Vec3>(grid_vertices, Vec3::Zero()));
 }
 
-TEST_CASE("Pins of a free mesh hold, move and let go of the user's vertices in every scheme") {
+TEST_CASE("Pins of a free mesh hold, move and release the user's vertices in every scheme") {
     for (const Scheme scheme : basic_schemes) {
         TwoCloths scene({.time_step = 1e-4, .scheme = scheme});
         Simulation& s = scene.simulation;

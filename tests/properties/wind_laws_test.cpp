@@ -41,7 +41,7 @@ TEST_CASE("A flat sheet that falls through still air follows v = w tanh(g t/w)")
     }
 }
 
-TEST_CASE("What wind works on a sheet that nothing else holds is its kinetic energy, exactly so under the trapezoid", "[law]") {
+TEST_CASE("The work of wind on a free sheet is its kinetic energy, exactly so under the trapezoid", "[law]") {
     for (const Scheme scheme : {Scheme::trapezoid, Scheme::tr_bdf2, Scheme::implicit_midpoint}) {
         Simulation simulation({.time_step = 0.01,
                                .scheme = scheme,
@@ -64,7 +64,7 @@ TEST_CASE("What wind works on a sheet that nothing else holds is its kinetic ene
     }
 }
 
-TEST_CASE("Without wind there is no air, and none is paid for") {
+TEST_CASE("Without wind there is no air, and no cost for it") {
     const auto fall = [](bool with_wind, double density) {
         Simulation simulation({.air_density = density});
         const ClothId cloth = simulation.add_cloth(make_grid(0.5, 0.5, 6, 6), blown_fabric(1.5));

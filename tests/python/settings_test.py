@@ -103,3 +103,13 @@ def test_wrong_fabrics_are_refused_by_fabric_and_by_dict(hanging, refused, keys,
     refused(simulation, lambda s: s.set_fabric(cloth, keys), *words)
     refused(simulation, lambda s: s.add_cloth(percale.make_grid(1, 1, 3, 3), keys), *words)
     assert simulation.cloth_count == 1
+
+
+def test_former_names_are_a_deprecation_warning():
+    with pytest.warns(DeprecationWarning, match='newton_share is called newton_error_ratio'):
+        simulation = percale.Simulation(newton_share=0.5)
+    assert simulation.settings['newton_error_ratio'] == 0.5
+    with pytest.warns(DeprecationWarning, match='DroppedSubsteps'):
+        assert percale.DroppedSpans is percale.DroppedSubsteps
+    with pytest.raises(AttributeError, match='NoSuchName'):
+        percale.NoSuchName

@@ -108,10 +108,10 @@ private:
         for (const auto& [one, other] : either) banned_.insert(wanted == one || (wanted != other && below(2) == 0) ? other : one);
     }
 
-    /// Only scenes that end at rest have a longest duration.
+    /// Only scenes that end at rest have a max_duration.
     void choose_end() {
-        until_rest_ = wanted == "longest" || (wanted.empty() && below(2) == 0);
-        until_rest_ ? must_.insert("duration") : banned_.insert("longest");
+        until_rest_ = wanted == "max_duration" || (wanted.empty() && below(2) == 0);
+        until_rest_ ? must_.insert("duration") : banned_.insert("max_duration");
     }
 
     bool has(const SceneKey& key, const std::string& path) {
@@ -186,7 +186,7 @@ private:
         return "[" + text + "]";
     }
 
-    /// Of directions those that are normalised to the same bits again.
+    /// Directions are such that normalising them again gives the same bits.
     std::string numbers_of(const SceneKey& key, const std::string& path) {
         if (key.count == 4) return one_of({"[1, 0, 0, 0]", "[0, 1, 0, 0]", "[0, 0, -1, 0]", "[0.5, 0.5, -0.5, 0.5]"});
         if (path == "expect.during") return list(2, [&, end = uniform(0.0, 1.0)]() mutable { return number_text(end += 1.0); });
@@ -194,7 +194,7 @@ private:
         return list(key.count, [&] { return number_of(key, path); });
     }
 
-    /// Names of what there is.
+    /// A name that exists in the scene.
     std::string text_of(const std::string& path) {
         if (path.ends_with(".name"))
             return "\"" + std::string(path.starts_with("cloth") ? "c" : "o") + std::to_string(item_) + "\"";

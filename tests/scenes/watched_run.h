@@ -48,9 +48,9 @@ bool ends_with(const std::vector<Value>& all, const std::vector<Value>& end) {
 /// Whether the run that goes on from a state of another has the same steps, frames and figures as one never left.
 inline bool resumes_as(const WatchedRun& plain, const WatchedRun& left, std::size_t state, WatchedRun resumed) {
     const RunState& from = left.states[state];
-    const bool told = resumed.report["resumed_at_s"] == nlohmann::json{from.totals.simulated_s};
+    const bool reported = resumed.report["resumed_at_s"] == nlohmann::json{from.totals.simulated_s};
     resumed.report.erase("resumed_at_s");
-    return told && resumed.hashes.size() + left.hashes_before[state] == plain.hashes.size() &&
+    return reported && resumed.hashes.size() + left.hashes_before[state] == plain.hashes.size() &&
            ends_with(plain.hashes, resumed.hashes) && ends_with(plain.frames, resumed.frames) &&
            resumed.frames.size() + static_cast<std::size_t>(from.next_frame) == plain.frames.size() &&
            resumed.report == plain.report;

@@ -26,13 +26,13 @@ std::vector<double> jittered(Random& random, double low, double high, double spa
     return numbers;
 }
 
-/// Points of one row; a little more or fewer of them than the spacing says, so that rows do not match.
-std::vector<double> row_places(Random& random, double low, double high, double spacing) {
+/// Points of one row; a few more or fewer of them than the spacing gives, so that rows do not match.
+std::vector<double> row_points(Random& random, double low, double high, double spacing) {
     return jittered(random, low, high, spacing * random.number(0.93, 1.07));
 }
 
-/// Triangles between two rows that run alike, `left` on the left hand of the direction in which they run: at each step
-/// the shorter of the two diagonals.
+/// Triangles between two rows in the same direction, `left` on the left hand of that direction: at each step the shorter of the
+/// two diagonals.
 void zip(const Row& left, const Row& right, TriangleMesh& mesh) {
     std::size_t i = 0, j = 0;
     const auto distance = [&mesh](int a, int b) { return (mesh.vertices[a] - mesh.vertices[b]).squaredNorm(); };
@@ -48,7 +48,7 @@ void zip(const Row& left, const Row& right, TriangleMesh& mesh) {
     }
 }
 
-Row append_row(const std::vector<Vec3>& points, TriangleMesh& mesh) {
+Row append_constraint(const std::vector<Vec3>& points, TriangleMesh& mesh) {
     Row row;
     for (const Vec3& x : points) {
         row.push_back(static_cast<int>(mesh.vertices.size()));
@@ -66,10 +66,10 @@ TriangleMesh sheet_of_spacing(double size, double spacing) {
     for (const double z : heights) {
         const bool border = z == heights.front() || z == heights.back();
         std::vector<Vec3> points;
-        for (const double x : row_places(random, -half, half, spacing)) {
+        for (const double x : row_points(random, -half, half, spacing)) {
             points.emplace_back(x, 0.0, z + (border || std::abs(x) == half ? 0.0 : 0.12 * spacing * random.number(-1.0, 1.0)));
         }
-        const Row row = append_row(points, mesh);
+        const Row row = append_constraint(points, mesh);
         if (!before.empty()) zip(before, row, mesh);
         before = row;
     }
@@ -85,11 +85,11 @@ TriangleMesh skirt_of_spacing(double spacing) {
     for (const double part : jittered(random, 0.0, 1.0, row_ratio * spacing / std::hypot(length, hem - waist))) {
         const double radius = waist + part * (hem - waist), begin = random.number(0.0, spacing / radius);
         std::vector<Vec3> points;
-        for (const double angle : row_places(random, begin, begin + turn, spacing / radius)) {
+        for (const double angle : row_points(random, begin, begin + turn, spacing / radius)) {
             points.emplace_back(radius * std::sin(angle), -length * part, radius * std::cos(angle));
         }
-        points.pop_back();  // the first once more
-        Row row = append_row(points, mesh);
+        points.pop_back();  // equal to the first
+        Row row = append_constraint(points, mesh);
         row.push_back(row.front());
         if (!before.empty()) zip(before, row, mesh);
         before = row;
@@ -115,8 +115,8 @@ Row append_body(Random& random, double half_width, const std::vector<double>& he
     Row before;
     for (std::size_t k = 0; k + 1 < heights.size(); ++k) {
         std::vector<Vec3> points;
-        for (const double x : row_places(random, -half_width, half_width, spacing)) points.emplace_back(x, heights[k], 0.0);
-        const Row row = append_row(points, panel.mesh);
+        for (const double x : row_points(random, -half_width, half_width, spacing)) points.emplace_back(x, heights[k], 0.0);
+        const Row row = append_constraint(points, panel.mesh);
         if (!before.empty()) zip(row, before, panel.mesh);
         before = row;
     }
@@ -129,11 +129,11 @@ Row append_wide_row(Random& random, double inner, double y, double spacing, Shir
     std::vector<Vec3> points;
     const double ends[4] = {-sleeve_end, -inner, inner, sleeve_end};
     for (int part = 0; part < 3; ++part) {
-        for (const double x : row_places(random, ends[part], ends[part + 1], spacing)) {
+        for (const double x : row_points(random, ends[part], ends[part + 1], spacing)) {
             if (part == 0 || x != ends[part]) points.emplace_back(x, y, 0.0);
         }
     }
-    return append_row(points, panel.mesh);
+    return append_constraint(points, panel.mesh);
 }
 
 ShirtPanel shirt_panel(double spacing) {
@@ -179,7 +179,7 @@ TriangleMesh shirt_of_spacing(double spacing) {
     return shirt;
 }
 
-/// The mesh whose spacing gives the wished number of vertices, found by the rule that their number goes with 1/spacing^2.
+/// The mesh whose spacing gives the requested number of vertices, found by the rule that their number goes with 1/spacing^2.
 TriangleMesh with_vertices(int wished, double area, const std::function<TriangleMesh(double)>& of_spacing) {
     double spacing = std::sqrt(area / (row_ratio * wished));
     TriangleMesh mesh = of_spacing(spacing);

@@ -13,7 +13,7 @@
 
 namespace percale::test {
 
-/// One spring of the plain loop, as one would write it first: an array of structs.
+/// One spring of the plain loop, in a straightforward implementation: an array of structs.
 struct PlainSpring {
     int a, b;
     double rest, stiffness, damping;  // m, N/m, N s/m
@@ -53,8 +53,9 @@ inline void plain_forces(const std::vector<PlainSpring>& springs, const std::vec
     }
 }
 
-/// CPU seconds of each call, the least of `rounds`. A round makes every call once, so that a loaded machine is unfair to none.
-inline std::vector<double> least_seconds(int rounds, const std::vector<std::function<void()>>& calls) {
+/// CPU seconds of each call, the minimum of `rounds`. A round makes every call once, so that the load of a machine affects all
+/// alike.
+inline std::vector<double> min_seconds(int rounds, const std::vector<std::function<void()>>& calls) {
     std::vector<double> least(calls.size(), std::numeric_limits<double>::infinity());
     for (int round = 0; round < rounds; ++round) {
         for (std::size_t k = 0; k < calls.size(); ++k) {
@@ -78,10 +79,10 @@ struct PlainSheet {
     void evaluate() { plain_forces(springs, positions, velocities, forces); }
 };
 
-/// The machine unit U: CPU milliseconds of one pass of the plain loop, the least of many. Throws if the loop gave no number.
+/// The machine unit U: CPU milliseconds of one pass of the plain loop, the minimum of many. Throws if the result is not finite.
 inline double machine_unit(int n, int passes = 200) {
     PlainSheet sheet(n);
-    const double seconds = least_seconds(passes, {[&] { sheet.evaluate(); }})[0];
+    const double seconds = min_seconds(passes, {[&] { sheet.evaluate(); }})[0];
     for (const Vec3& f : sheet.forces) {
         if (!f.allFinite()) throw std::runtime_error("the plain force loop gave a force that is not finite");
     }

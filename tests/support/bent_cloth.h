@@ -38,7 +38,7 @@ inline TriangleMesh equilateral_sheet(double h, int columns, int rows) {
     return mesh;
 }
 
-/// Rolled onto a cylinder of radius 1/curvature whose axis makes `angle` with z, without stretch.
+/// The sheet rolled onto a cylinder of radius 1/curvature whose axis makes `angle` with z, without stretch.
 inline std::vector<Vec3> rolled(const std::vector<Vec3>& flat, double curvature, double angle) {
     const Vec3 along(std::cos(angle), 0.0, std::sin(angle)), axis(-std::sin(angle), 0.0, std::cos(angle));
     std::vector<Vec3> result;
@@ -50,7 +50,7 @@ inline std::vector<Vec3> rolled(const std::vector<Vec3>& flat, double curvature,
 }
 
 inline double bending_energy(const ClothModel& model, const std::vector<Vec3>& points) {
-    return hinge_energy(model.hinges, to_vectors(points));
+    return hinge_energy(model.hinges, to_vec3_arrays(points));
 }
 
 }  // namespace percale::test

@@ -1,6 +1,6 @@
 #pragma once
 
-// The one place that knows which Catch2 is installed.
+// The only file that depends on the installed version of Catch2.
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
 using Catch::Approx;

@@ -12,23 +12,23 @@
 #include "engine/plan/step_plan.h"
 #include "engine/solve/explicit_update.h"
 #include "engine/solve/newton.h"
-#include "engine/span/advance.h"
 #include "engine/step/motion.h"
 #include "engine/step/world.h"
+#include "engine/substep/advance.h"
 #include "percale/percale.h"
 #include "tests/support/random.h"
 
 namespace percale::test {
 
-/// What tests compute with: the best kernels of this machine.
+/// The kernels and threads of tests: the best kernels of this machine.
 inline const Compute compute;
 
-/// In the order of the enum.
+/// All schemes, in the order of the enum.
 inline constexpr std::array all_schemes = {Scheme::forward_euler,  Scheme::symplectic_euler,  Scheme::midpoint,  Scheme::rk4,
                                            Scheme::backward_euler, Scheme::implicit_midpoint, Scheme::trapezoid, Scheme::bdf2,
                                            Scheme::tr_bdf2};
 
-/// Those that a SolverScene steps by.
+/// The schemes by which a SolverScene steps.
 inline constexpr std::array basic_schemes = {Scheme::symplectic_euler, Scheme::rk4, Scheme::backward_euler};
 
 /// The sheet that every measured figure refers to.
@@ -81,7 +81,7 @@ inline ClothModel cloth_model(const TriangleMesh& mesh, const Fabric& fabric) {
     return model;
 }
 
-/// Random springs between random points, some stretched, some compressed; every vertex has one at least.
+/// Random springs between random points, some stretched, some compressed; every vertex has at least one.
 inline std::vector<Link> random_links(Random& random, int vertices, int links) {
     std::vector<Link> result;
     for (int k = 0; k < links; ++k) {
@@ -104,21 +104,21 @@ inline std::vector<Vec3> random_points(Random& random, int count, double size) {
     return points;
 }
 
-inline Vectors to_vectors(const std::vector<Vec3>& points) {
-    Vectors vectors;
+inline Vec3Arrays to_vec3_arrays(const std::vector<Vec3>& points) {
+    Vec3Arrays vectors;
     vectors.resize(static_cast<int>(points.size()));
     copy_in(points, vectors);
     return vectors;
 }
 
-inline std::vector<Vec3> to_points(const Vectors& vectors, int count) {
+inline std::vector<Vec3> to_points(const Vec3Arrays& vectors, int count) {
     std::vector<Vec3> points(count);
     copy_out(vectors, points);
     return points;
 }
 
 /// Exactly the same bits in every entry that belongs to a vertex.
-inline bool same_bits(const Vectors& a, const Vectors& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+inline bool same_bits(const Vec3Arrays& a, const Vec3Arrays& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
 inline double largest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     double largest = a.size() == b.size() ? 0.0 : 1e300;
@@ -126,11 +126,11 @@ inline double largest_difference(const std::vector<Vec3>& a, const std::vector<V
     return largest;
 }
 
-/// A scene with its state and all that a solver wants beside it. Not to be moved after the first solve.
+/// A scene with its state and the data of a solver. Not to be moved after the first solve.
 struct SolverScene : StepScene {
     ClothState state, before;  // now, and before the last step
-    Vectors targets;
-    ContactMemory contact;
+    Vec3Arrays targets;
+    ContactWarmStart contact;
     NewtonOptions options;
     NewtonSpace newton;
     ExplicitSpace explicit_space;
@@ -163,7 +163,7 @@ inline SolverScene solver_scene(ClothModel model, const std::vector<Vec3>& posit
     scene.settings = settings;
     scene.model = std::move(model);
     if (scene.model.rest.empty()) scene.model.rest = positions;
-    scene.state.positions = to_vectors(positions);
+    scene.state.positions = to_vec3_arrays(positions);
     scene.state.velocities.resize(scene.model.vertex_count());
     scene.state.points = positions;
     scene.plan = make_step_plan(settings, {.cloth_vertices = scene.model.vertex_count()});
@@ -201,19 +201,19 @@ inline World linked_world(ClothModel model, const std::vector<Vec3>& positions, 
 inline void plan_step(World& world) {
     renew_plan(world.scene, world.state.cloth);
     set_motion_of_step(world.scene, world.state.cloth, world.state.time);
-    if (world.scene.detector) tell_obstacles(world.scene);
+    if (world.scene.detector) report_obstacles(world.scene);
 }
 
-/// One span of the coming step; what it leads to becomes the state.
-inline SpanResult advance_world(World& world, StepFraction fraction, bool last_try = false) {
+/// Makes one substep of the coming step; its end becomes the state.
+inline SubstepResult advance_world(World& world, StepFraction fraction, bool last_try = false) {
     const StepState start = world.state;
     StepState end;
-    const SpanResult result = advance({world.scene, start.cloth.positions, fraction, last_try}, start, world.work, end);
+    const SubstepResult result = advance({world.scene, start.cloth.positions, fraction, last_try}, start, world.work, end);
     world.state = end;
     return result;
 }
 
-/// A mass on a spring, off its rest; the other end is held.
+/// A mass on a spring, away from its rest; the other end is held.
 inline World mass_on_spring(const StepSettings& settings) {
     World world =
         linked_world(linked_masses({0.1, 0.2}, {{0, 1, 1.0, 50.0, 0.3}}), {Vec3(0, 0, 0), Vec3(1.2, 0, 0)}, {0}, settings);
@@ -221,7 +221,7 @@ inline World mass_on_spring(const StepSettings& settings) {
     return world;
 }
 
-/// What a SceneError says; empty if nothing was thrown.
+/// The message of a SceneError; empty if nothing was thrown.
 template <class Call>
 std::string scene_error(Call&& call) {
     try {

@@ -35,7 +35,7 @@ public:
             sum += mass_[i] * (0.5 * change.squaredNorm() - gravity_.dot(place(v, static_cast<int>(i))));
         }
         for (int k = 0; k < springs_.size(); ++k) {
-            const double l = span(v, k).norm(), stretch = l - springs_.rest_length[k], growth = l - start_span(k).norm();
+            const double l = substep(v, k).norm(), stretch = l - springs_.rest_length[k], growth = l - start_substep(k).norm();
             sum += 0.5 * springs_.stiffness[k] * stretch * stretch + 0.5 * springs_.damping[k] * growth * growth / dt_;
         }
         return sum;
@@ -48,7 +48,7 @@ public:
             sum.segment<3>(3 * static_cast<Eigen::Index>(i)) = mass_[i] * (at(v, i) - at(start_, i) - dt_ * gravity_);
         }
         for (int k = 0; k < springs_.size(); ++k) {
-            const Vec3 x = span(v, k), pull = dt_ * tension(k, x.norm()) * x.normalized();
+            const Vec3 x = substep(v, k), pull = dt_ * tension(k, x.norm()) * x.normalized();
             sum.segment<3>(3 * springs_.first[k]) += pull;
             sum.segment<3>(3 * springs_.second[k]) -= pull;
         }
@@ -56,7 +56,7 @@ public:
         return free;
     }
 
-    /// Newton with each spring's Hessian cut to its positive part, and steps halved until the objective falls.
+    /// Newton with each spring's Hessian projected to its positive part, and steps halved until the objective falls.
     Eigen::VectorXd solve() const {
         Eigen::VectorXd v = start_;
         for (int iteration = 0; iteration < 500; ++iteration) {
@@ -74,10 +74,10 @@ public:
 private:
     static Vec3 at(const Eigen::VectorXd& v, std::size_t i) { return v.segment<3>(3 * static_cast<Eigen::Index>(i)); }
     Vec3 place(const Eigen::VectorXd& v, int i) const { return positions_[i] + dt_ * at(v, i); }
-    Vec3 span(const Eigen::VectorXd& v, int k) const { return place(v, springs_.first[k]) - place(v, springs_.second[k]); }
-    Vec3 start_span(int k) const { return positions_[springs_.first[k]] - positions_[springs_.second[k]]; }
+    Vec3 substep(const Eigen::VectorXd& v, int k) const { return place(v, springs_.first[k]) - place(v, springs_.second[k]); }
+    Vec3 start_substep(int k) const { return positions_[springs_.first[k]] - positions_[springs_.second[k]]; }
     double tension(int k, double l) const {
-        return springs_.stiffness[k] * (l - springs_.rest_length[k]) + springs_.damping[k] * (l - start_span(k).norm()) / dt_;
+        return springs_.stiffness[k] * (l - springs_.rest_length[k]) + springs_.damping[k] * (l - start_substep(k).norm()) / dt_;
     }
 
     Eigen::MatrixXd hessian(const Eigen::VectorXd& v) const {
@@ -86,7 +86,7 @@ private:
             sum.block<3, 3>(3 * i, 3 * i) = mass_[i] * Eigen::Matrix3d::Identity();
         }
         for (int k = 0; k < springs_.size(); ++k) {
-            const Vec3 x = span(v, k), d = x.normalized();
+            const Vec3 x = substep(v, k), d = x.normalized();
             const Eigen::Matrix3d along = d * d.transpose(), across = Eigen::Matrix3d::Identity() - along;
             const Eigen::Matrix3d block = dt_ * dt_ *
                                           ((springs_.stiffness[k] + springs_.damping[k] / dt_) * along +

@@ -9,14 +9,14 @@
 
 namespace percale::test {
 
-inline Vectors from_dense(const Eigen::VectorXd& x) {
-    Vectors vectors;
+inline Vec3Arrays from_dense(const Eigen::VectorXd& x) {
+    Vec3Arrays vectors;
     vectors.resize(static_cast<int>(x.size()) / 3);
     for (int i = 0; i < x.size() / 3; ++i) vectors.set(i, x.segment<3>(3 * i));
     return vectors;
 }
 
-inline Eigen::VectorXd to_dense(const Vectors& vectors, int count) {
+inline Eigen::VectorXd to_dense(const Vec3Arrays& vectors, int count) {
     Eigen::VectorXd x(3 * count);
     for (int i = 0; i < count; ++i) x.segment<3>(3 * i) = vectors.at(i);
     return x;
@@ -32,19 +32,19 @@ inline Eigen::Matrix3d full_block(const SpringBlock& block) {
     return block.a * Eigen::Matrix3d::Identity() + block.w * block.w.transpose();
 }
 
-/// A random network in a random state, with contacts and prescribed vertices: the engine's matrix and all it was made of.
+/// A random network in a random state, with contacts and prescribed vertices: the engine's matrix and its components.
 struct RandomSystem {
     Random random;
     ClothModel model;
-    Vectors positions, velocities;
+    Vec3Arrays positions, velocities;
     SpringTerms terms;
     std::vector<CoupledBlock> contacts;
     BlockMatrix matrix;
 
     explicit RandomSystem(unsigned seed, int count) : random(seed) {
         model = linked_masses(random_masses(random, count), random_links(random, count, 4 * count));
-        positions = to_vectors(random_points(random, count, 0.7));
-        velocities = to_vectors(random_points(random, count, 1.0));
+        positions = to_vec3_arrays(random_points(random, count, 0.7));
+        velocities = to_vec3_arrays(random_points(random, count, 1.0));
         evaluate();
         for (int i = 0; i < count / 2; ++i) contacts.push_back(random_contact(count));
         set_pattern(compute, model.adjacency, model.mass, matrix);
@@ -57,12 +57,12 @@ struct RandomSystem {
     void evaluate() {
         StepSprings springs;
         set_step_springs(compute, {model.adjacency, positions, DampingForm::length_rate, 1.0 / 60.0}, springs);
-        Vectors forces;
+        Vec3Arrays forces;
         forces.resize(model.vertex_count());
         evaluate_springs(compute, springs, {positions, velocities, 1.0 / 60.0}, true, forces, terms);
     }
 
-    /// Masses and contacts alone are left; the matrix is to be filled anew.
+    /// Removes all but masses and contacts; the matrix is to be filled anew.
     void slacken() {
         for (auto* list : {&model.springs.stiffness, &model.springs.damping}) std::fill(list->begin(), list->end(), 0.0);
         finish_model(model);

@@ -7,11 +7,11 @@
 
 #include "tests/support/catch.h"
 
-// Laws with the figure that was measured. Each prints a line "law: NAME = MEASURED (LIMIT)"; where the environment variable
-// PERCALE_LAWS names a file, a row of a table is appended to it.
+// Laws with the measured figure. Each prints a line "law: NAME = MEASURED (LIMIT)"; where the environment variable PERCALE_LAWS
+// names a file, a row of a table is appended to it.
 namespace percale::test {
 
-inline void tell_law(const std::string& name, const std::string& measured, const std::string& limit) {
+inline void report_law(const std::string& name, const std::string& measured, const std::string& limit) {
     std::printf("law: %s = %s (%s)\n", name.c_str(), measured.c_str(), limit.c_str());
     const char* path = std::getenv("PERCALE_LAWS");
     if (!path) return;
@@ -27,14 +27,14 @@ inline std::string figure(double value, int digits = 2) {
 
 /// A deviation from a law, which must be at most `limit`.
 inline void check_law(const std::string& name, double deviation, double limit) {
-    tell_law(name, figure(deviation), figure(limit));
+    report_law(name, figure(deviation), figure(limit));
     CAPTURE(name);
     CHECK(deviation <= limit);
 }
 
 /// A figure that the law puts between two bounds.
 inline void check_law_between(const std::string& name, double value, double lowest, double highest) {
-    tell_law(name, figure(value, 3), figure(lowest, 3) + " to " + figure(highest, 3));
+    report_law(name, figure(value, 3), figure(lowest, 3) + " to " + figure(highest, 3));
     CAPTURE(name);
     CHECK((value >= lowest && value <= highest));
 }

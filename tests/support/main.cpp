@@ -8,7 +8,7 @@
 
 int main(int argc, char** argv) {
     const int failed = Catch::Session().run(argc, argv);
-    // Only where nothing failed: ctest takes a test that says so as not run, whatever its exit code.
+    // Only where nothing failed: ctest counts a test with this output as not run, whatever its exit code.
     if (failed == 0 && percale::test::skips > 0) std::printf("not everything was tested: %d skipped\n", percale::test::skips);
     return failed;
 }

@@ -10,7 +10,7 @@ namespace percale::test {
 /// One stage of backward Euler of a scene.
 struct OneStage {
     SolverScene scene;
-    ContactMemory memory;
+    ContactWarmStart warm_start;
 
     explicit OneStage(SolverScene of) : scene(std::move(of)) {
         scene.before = scene.state;

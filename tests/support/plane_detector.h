@@ -45,18 +45,18 @@ public:
         return fault;
     }
 
-    void refresh(std::span<const Vec3>, std::span<const Vec3>) override { ++refreshes; }
+    void update_candidates(std::span<const Vec3>, std::span<const Vec3>) override { ++candidate_updates; }
 
-    void evaluate(std::span<const Vec3> positions, double fraction, ContactRows& rows) override {
-        rows.clear();
+    void find_contacts(std::span<const Vec3> positions, double fraction, ContactConstraints& constraints) override {
+        constraints.clear();
         smallest_ = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < positions.size(); ++i) {
             for (std::size_t k = 0; k < planes_.size(); ++k)
-                add_row(static_cast<int>(i), static_cast<int>(k), positions, fraction, rows);
+                add_constraint(static_cast<int>(i), static_cast<int>(k), positions, fraction, constraints);
         }
     }
 
-    double largest_safe_fraction(std::span<const Vec3> from, std::span<const Vec3> to, StepFraction part) override {
+    double collision_free_step_size(std::span<const Vec3> from, std::span<const Vec3> to, StepFraction part) override {
         double fraction = 1.0;
         for (const Plane& plane : planes_) {
             for (std::size_t i = 0; i < from.size(); ++i) {
@@ -78,7 +78,7 @@ public:
         for (Plane& plane : planes_) state(plane.start, plane.end);
     }
 
-    int refreshes = 0;
+    int candidate_updates = 0;
 
 private:
     struct Plane {
@@ -90,27 +90,28 @@ private:
     static double distance(const Plane& plane, const Vec3& x, double fraction) {
         return plane.normal.dot(x - place(plane, fraction));
     }
-    /// How near a move may come that starts at this distance.
+    /// The smallest distance that a move from this distance may reach.
     static double floor_from(double distance, double thickness) {
         return std::max(std::min(0.2 * thickness, 0.5 * distance), 1e-3 * thickness);
     }
 
-    void add_row(int vertex, int obstacle, std::span<const Vec3> positions, double fraction, ContactRows& rows) {
+    void add_constraint(int vertex, int obstacle, std::span<const Vec3> positions, double fraction,
+                        ContactConstraints& constraints) {
         const Plane& plane = planes_[obstacle];
         const double d = distance(plane, positions[vertex], fraction);
         smallest_ = std::min(smallest_, d);
         if (d >= thickness_[vertex]) return;
-        rows.vertex.push_back({vertex, -1, -1, -1});
-        rows.weight.push_back({1.0, 0.0, 0.0, 0.0});
-        rows.direction.push_back(plane.normal);
-        rows.obstacle_point.push_back(positions[vertex] - d * plane.normal);
-        rows.obstacle_displacement.push_back(plane.end - plane.start);
-        rows.distance.push_back(d);
-        rows.thickness.push_back(thickness_[vertex]);
-        rows.friction.push_back(plane.friction);
-        rows.share.push_back(1.0);
-        rows.obstacle.push_back(obstacle);
-        rows.feature.push_back(0);
+        constraints.vertex.push_back({vertex, -1, -1, -1});
+        constraints.weight.push_back({1.0, 0.0, 0.0, 0.0});
+        constraints.direction.push_back(plane.normal);
+        constraints.obstacle_point.push_back(positions[vertex] - d * plane.normal);
+        constraints.obstacle_displacement.push_back(plane.end - plane.start);
+        constraints.distance.push_back(d);
+        constraints.thickness.push_back(thickness_[vertex]);
+        constraints.friction.push_back(plane.friction);
+        constraints.mollifier.push_back(1.0);
+        constraints.obstacle.push_back(obstacle);
+        constraints.feature.push_back(0);
     }
 
     std::vector<double> thickness_;

@@ -21,7 +21,7 @@ inline SolverScene sheet_on_plane(double angle, double friction, double height, 
     auto detector = std::make_unique<PlaneDetector>();
     std::vector<double> zone = scene.model.thickness;
     const bool projects = settings.contact_response == ContactResponse::projection;
-    for (double& thickness : zone) thickness *= projects ? projection_zone : 1.0;
+    for (double& thickness : zone) thickness *= projects ? projection_activation_ratio : 1.0;
     detector->set_cloth(scene.model.triangles, zone);
     detector->add_obstacle(make_plane(1.0), pose, friction);
     scene.detector = std::move(detector);
@@ -37,14 +37,14 @@ inline void add_plane(World& world) {
     world.scene.script.obstacles.push_back({"plane", {}, {}});
 }
 
-/// Of the mass, m/s.
+/// The mean velocity by mass, m/s.
 inline Vec3 mean_velocity(const SolverScene& scene) {
     Vec3 sum = Vec3::Zero();
     for (int i = 0; i < scene.model.vertex_count(); ++i) sum += scene.model.mass[i] * scene.state.velocities.at(i);
     return sum / scene.model.cloths[0].mass;
 }
 
-/// Steps that have to converge.
+/// Makes steps that must converge.
 inline void run(SolverScene& scene, int steps) {
     for (int n = 0; n < steps; ++n) {
         const NewtonReport report = scene.step_implicit();

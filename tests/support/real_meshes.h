@@ -7,13 +7,13 @@
 
 namespace percale::test {
 
-/// Where body scans lie: the environment variable PERCALE_REAL_MESHES, else the folder named when the tests were built.
+/// Folder of body scans: the environment variable PERCALE_REAL_MESHES, else the folder named when the tests were built.
 inline std::filesystem::path real_mesh_folder() {
     const char* named = std::getenv("PERCALE_REAL_MESHES");
     return named != nullptr ? named : PERCALE_REAL_MESHES;
 }
 
-/// Centred, its longest side 1 m.
+/// The mesh centred, its longest side 1 m.
 inline TriangleMesh unit_size(TriangleMesh mesh) {
     Vec3 low = mesh.vertices[0], high = low;
     for (const Vec3& x : mesh.vertices) {

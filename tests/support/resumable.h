@@ -8,7 +8,7 @@
 #include "percale/simulation.h"
 #include "tests/support/saved_bytes.h"
 
-// Runs that are saved on their way and resumed in a simulation made anew.
+// Runs that are saved in the middle and resumed in a new simulation.
 namespace percale::test {
 
 struct Resumable {
@@ -47,7 +47,7 @@ struct StepTrace {
         for (const auto entry : ledger_entries) figures.push_back(r.energy.*entry);
         for (const int count : {r.dropped.not_converged, r.dropped.blocked, r.dropped.not_finite, r.dropped.inexact})
             figures.push_back(count);
-        // NaN, which is not equal to itself, stands for what is not measured.
+        // NaN, which is not equal to itself, stands for unmeasured figures.
         for (double& figure : figures) figure = figure == figure ? figure : -1e300;
     }
     bool operator==(const StepTrace&) const = default;

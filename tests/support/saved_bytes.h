@@ -5,7 +5,7 @@
 
 #include "percale/saved_state.h"
 
-// States as bytes, of whatever has save(StateWriter&) and restore(StateReader&).
+// States as bytes, of everything with save(StateWriter&) and restore(StateReader&).
 namespace percale::test {
 
 using Saved = std::vector<std::byte>;

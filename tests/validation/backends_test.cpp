@@ -13,7 +13,7 @@
 #include "tests/support/real_meshes.h"
 #include "tests/support/skip.h"
 
-// Whatever the tree: the same contacts, cuts and distances, to the last bit.
+// Whatever the tree: the same contacts, clamps and distances, to the last bit.
 namespace percale::test::backends_test {
 namespace {
 
@@ -39,32 +39,32 @@ TriangleMesh random_obstacle(Random& random) {
 }
 
 struct Differences {
-    int states = 0, with_rows = 0, cut = 0, differing = 0;
-    long rows = 0;
+    int states = 0, with_constraints = 0, cut = 0, differing = 0;
+    long constraints = 0;
 };
 
 /// The cloth goes from `from` to `to` with the obstacles at `fraction` and further; every backend is asked the same.
 void compare(std::vector<Steps>& all, const std::vector<Vec3>& from, const std::vector<Vec3>& to, double fraction,
              Differences& found) {
-    std::optional<ContactRows> first;
+    std::optional<ContactConstraints> first;
     double first_cut = 0.0, first_distance = 0.0;
     for (Steps& steps : all) {
-        ContactRows rows;
-        steps.detector->refresh(from, to);
-        steps.detector->evaluate(from, fraction, rows);
+        ContactConstraints constraints;
+        steps.detector->update_candidates(from, to);
+        steps.detector->find_contacts(from, fraction, constraints);
         const double distance = steps.detector->smallest_distance();
-        const double cut = steps.detector->largest_safe_fraction(from, to, {fraction, 1.0});
+        const double cut = steps.detector->collision_free_step_size(from, to, {fraction, 1.0});
         if (first) {
-            found.differing += same_rows(rows, *first) && cut == first_cut && distance == first_distance ? 0 : 1;
+            found.differing += same_constraints(constraints, *first) && cut == first_cut && distance == first_distance ? 0 : 1;
             continue;
         }
-        first = rows;
+        first = constraints;
         first_cut = cut;
         first_distance = distance;
     }
     ++found.states;
-    found.rows += static_cast<long>(first->size());
-    found.with_rows += first->size() > 0 ? 1 : 0;
+    found.constraints += static_cast<long>(first->size());
+    found.with_constraints += first->size() > 0 ? 1 : 0;
     found.cut += first_cut < 1.0 ? 1 : 0;
 }
 
@@ -77,7 +77,7 @@ std::vector<Steps> steps_of(const TriangleMesh& cloth, const std::vector<MovingM
     return all;
 }
 
-/// At rest every second time, else on a way of some centimetres, turning.
+/// The pose stays every second time; else it moves by some centimetres and turns.
 Pose later(const Pose& pose, Random& random) {
     if (random.index(2) == 0) return pose;
     Pose next = pose;
@@ -105,10 +105,10 @@ TEST_CASE("FCL, Bullet and brute force give the same contacts in 500 random stat
         for (Vec3& x : moved_cloth.vertices) x += random.point(0.02);
         compare(all, cloth.vertices, moved_cloth.vertices, random.number(0.0, 1.0), found);
     }
-    std::printf("500 random states: %ld rows in %d states, %d moves cut\n", found.rows, found.with_rows, found.cut);
+    std::printf("500 random states: %ld rows in %d states, %d moves cut\n", found.constraints, found.with_constraints, found.cut);
     CHECK(found.differing == 0);
     CHECK(found.states == 500);
-    CHECK(found.with_rows > 250);
+    CHECK(found.with_constraints > 250);
     CHECK(found.cut > 250);
 }
 
@@ -131,16 +131,16 @@ TEST_CASE("FCL, Bullet and brute force give the same contacts on body scans") {
         for (Steps& steps : all) {
             steps.obstacles[0].start = start;
             steps.obstacles[0].end = end;
-            steps.tell_poses();
+            steps.report_poses();
         }
         const TriangleMesh cloth = placed(sheet, random.pose(0.3));
         const Vec3 way = random.point(0.02);
         compare(all, cloth.vertices, moved(cloth, way).vertices, random.number(0.0, 1.0), found);
     }
-    std::printf("%s: %ld rows in %d of %d states, %d moves cut\n", name.c_str(), found.rows, found.with_rows, found.states,
-                found.cut);
+    std::printf("%s: %ld rows in %d of %d states, %d moves cut\n", name.c_str(), found.constraints, found.with_constraints,
+                found.states, found.cut);
     CHECK(found.differing == 0);
-    CHECK(found.with_rows > 5);
+    CHECK(found.with_constraints > 5);
     CHECK(found.cut > 5);
 }
 

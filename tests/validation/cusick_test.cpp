@@ -1,5 +1,5 @@
-// Cusick's drape test: a disc of 30 cm hangs over a support of 18 cm; the drape coefficient is the share of the overhanging ring
-// that its shadow still covers. The support holds what lies on it.
+// Cusick's drape test: a disc of 30 cm hangs over a support of 18 cm; the drape coefficient is the fraction of the overhanging
+// ring that its shadow still covers. The support holds what lies on it.
 
 #include <algorithm>
 #include <cmath>
@@ -52,8 +52,8 @@ double shadow(std::span<const Vec3> positions, int rings) {
 double drape_coefficient(Fabric fabric, int rings) {
     fabric.damping_time.reset();
     fabric.spring_damping = 0.05;
-    // Folds form on the way, and looser steps may form others: what is told apart here are fabrics and meshes.
-    Simulation simulation(StepSettings{.newton_share = 0.05, .measure = StepMeasures::all});
+    // Folds form on the way, and looser steps may form others: the test compares fabrics and meshes.
+    Simulation simulation(StepSettings{.newton_error_ratio = 0.05, .measure = StepMeasures::all});
     const TriangleMesh mesh = disc(rings);
     const ClothId cloth = simulation.add_cloth(mesh, fabric, {});
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {

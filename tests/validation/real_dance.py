@@ -41,7 +41,7 @@ mesh = "dress.obj"
 rest = "panels.obj"
 [[seam]]
 file = "mesh"
-over = 0.05
+duration = 0.05
 [[obstacle]]
 name = "body"
 mesh = "shell%d.obj"

@@ -28,8 +28,8 @@ FILES = {
     "ipc-sim/Codim-IPC": ["Projects/FEMShell/input/dress_knife/stage.obj", "Projects/FEMShell/input/Rumba_Dancing/shell0.obj"],
 }
 
-SEWN = "over = 2.0\nstiffness = 3000.0\ncontact_while_closing = false\nweld = true\n"
-SEWN_IN_CONTACT = "over = 1.0\nstiffness = 200.0\nweld = true\n"  # what crosses in pleats would not be untangled
+SEWN = "duration = 2.0\nstiffness = 3000.0\ncontact_while_closing = false\nweld = true\n"
+SEWN_IN_CONTACT = "duration = 1.0\nstiffness = 200.0\nweld = true\n"  # what crosses in pleats would not be untangled
 # name: (garment, body, further keys of the cloth, of the body, of its seams, of steps)
 GARMENTS = {
     "t-shirt (SNUG)": ("tshirt.obj", "body.obj", "", "", None, ""),
@@ -41,7 +41,7 @@ GARMENTS = {
     "hoody_mean (GarmentCode)": ("hoody_mean_specification.json", "mean_all.obj", "", "", SEWN, ""),
     "dress (Codim-IPC): may tremble on": (
         "dress_start.obj", "shell0.obj", 'rest = "stage.obj"\n', "pose = { translation = [0, -0.75, 0] }\n", SEWN_IN_CONTACT,
-        "newton_share = 2.0\n"),
+        "newton_error_ratio = 2.0\n"),
 }
 
 
@@ -193,7 +193,7 @@ friction = 0.4
 file = "mesh"
 {seam_keys}
 [[event]]
-time = {re.search("over = ([0-9.]+)", seam_keys)[1]}
+time = {re.search("duration = ([0-9.]+)", seam_keys)[1]}
 gravity = [0.0, -9.81, 0.0]
 '''
     return text + "\n[expect]\nintersections = 0\nlargest_strain = { below = 10.0 }\n"  # so that strain is measured

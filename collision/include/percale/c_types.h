@@ -8,18 +8,18 @@
 
 /* Objects of the library. Each is made by a percale_create_* or percale_make_* function and freed by its percale_destroy_*. */
 typedef struct percale_simulation percale_simulation;
-typedef struct percale_step_settings percale_step_settings; /* how steps are made */
+typedef struct percale_step_settings percale_step_settings; /* how steps are solved */
 typedef struct percale_fabric percale_fabric;               /* what a cloth is made of */
 typedef struct percale_mesh percale_mesh;                   /* triangles; never changes */
 
-/* What a call came to. Numbers never change; later versions may append. */
+/* Result of a call. Numbers never change; later versions may append. */
 typedef enum percale_status {
     PERCALE_OK = 0,
     PERCALE_INVALID_ARGUMENT = 1, /* the call was wrong and changed nothing */
-    PERCALE_BUFFER_TOO_SMALL = 2, /* nothing was written but the number of items there are */
+    PERCALE_BUFFER_TOO_SMALL = 2, /* only the number of items was written */
     PERCALE_START_REFUSED = 3,    /* cloth starts where no simulation may start: percale_last_start_fault */
-    PERCALE_STEP_FAILED = 4,      /* the step ended badly; the state is that before it, the report says why */
-    PERCALE_NOT_BUILT = 5,        /* this build of the library lacks a part that was asked for */
+    PERCALE_STEP_FAILED = 4,      /* the step failed; the state is that before it, the report states why */
+    PERCALE_NOT_BUILT = 5,        /* this build of the library lacks a requested part */
     PERCALE_OUT_OF_MEMORY = 6,
     PERCALE_INTERNAL_ERROR = 7 /* a fault of the library, or of the host's threads */
 } percale_status;
@@ -27,8 +27,8 @@ typedef enum percale_status {
 /* How a step ended. Those up to PERCALE_STEP_TOLERANCE_MISSED are accepted. */
 typedef enum percale_step_status {
     PERCALE_STEP_OK = 0,
-    PERCALE_STEP_HALVED = 1,            /* well, after the step was redone as shorter ones */
-    PERCALE_STEP_NOT_CONVERGED = 2,     /* accepted at the iteration limit; the residual says how far off */
+    PERCALE_STEP_HALVED = 1,            /* accepted after the step was repeated as shorter ones */
+    PERCALE_STEP_NOT_CONVERGED = 2,     /* accepted at the iteration limit; the residual measures the error */
     PERCALE_STEP_TOLERANCE_MISSED = 3,  /* adaptive: accepted at the shortest length there is */
     PERCALE_STEP_PIN_BLOCKED = 4,       /* failed: a pin cannot reach its target */
     PERCALE_STEP_OBSTACLE_TOO_FAST = 5, /* failed: the cloth could not follow a moving obstacle */
@@ -58,10 +58,10 @@ typedef struct percale_contact_load {
     double normal[3];         /* what pushes the vertex off */
     double friction[3];       /* along the surface */
     double cloth_point[3];    /* m, world, where the force acts: the vertex, on the cloth's middle surface */
-    double obstacle_point[3]; /* m, world, on the obstacle: the mean of what presses, by normal force */
+    double obstacle_point[3]; /* m, world, on the obstacle: the mean of the contact points, weighted by normal force */
 } percale_contact_load;
 
-/* What was done to a cloth that started through, inside or touching something. Never changes in size. */
+/* How a cloth that started through, inside or touching something was moved. Never changes in size. */
 typedef struct percale_start_move {
     int cloth;
     int obstacle;        /* -1: cloth */
@@ -75,7 +75,7 @@ typedef struct percale_start_move {
 /* The host's threads. Results do not depend on them. */
 typedef struct percale_workers {
     uint32_t struct_size;
-    int threads; /* how many parts run at the same time at most, the caller's included; 1 ... 64 */
+    int threads; /* maximum number of parts at the same time, the caller's included; 1 ... 64 */
     void* host;  /* handed to run */
     /* Calls work(data, part, slot) once for each part of 0 ... parts - 1, in any order and on any threads, and returns when all
      * are done; what they wrote is then seen by the caller. Calls at the same time have different slots of 0 ... threads - 1.
@@ -102,13 +102,13 @@ typedef struct percale_cloth_settings {
     const percale_mesh* rest_mesh; /* the same triangles without strain; NULL, the default: the mesh itself */
     const double* rest_corners;    /* instead of rest_mesh: m, nine numbers for each triangle; a vertex may differ by triangle */
     size_t rest_corner_triangles;  /* how many triangles rest_corners holds */
-    double warp[3];                /* direction of warp where the rest shape is; 0 0 0, the default: not said */
+    double warp[3];                /* direction of warp where the rest shape is; 0 0 0, the default: unknown */
 } percale_cloth_settings;
 
 typedef struct percale_obstacle_settings {
     uint32_t struct_size;
     int deforming;      /* not 0: its vertices may move one by one; default 0 */
-    int yields;         /* not 0: its surface gives way where cloth is pinched, it is deforming then; default 0 */
+    int yields;         /* not 0: compliant, its surface gives way where cloth is pinched; it is then deforming; default 0 */
     double friction;    /* Coulomb coefficient against cloth, 0 ... 10; default 0.3 */
     double restitution; /* share of its normal speed with which cloth that hits it leaves, 0 ... 1; default 0 */
     const char* name;   /* for messages; default "obstacle" */
@@ -125,7 +125,7 @@ typedef struct percale_seam_settings {
     const char* name;          /* for messages; default "seam" */
 } percale_seam_settings;
 
-/* What the caller knows to change later on, for percale_plan_text; not 0: it does. */
+/* What the caller will change later on, for percale_plan_text; not 0: it will. */
 typedef struct percale_scripted_changes {
     uint32_t struct_size;
     int obstacles, pins, gravity, wind;
@@ -135,8 +135,8 @@ typedef struct percale_scripted_changes {
 typedef struct percale_energy {
     uint32_t struct_size;
     double kinetic, gravity;
-    double elastic; /* springs, hinges, membranes and what fills closed cloth */
-    double contact; /* of contact and of the springs by which friction holds */
+    double elastic; /* springs, hinges, membranes and the gas in closed cloth */
+    double contact; /* of contact and of the springs of sticking friction */
     double work;    /* of pins and obstacles on the cloth during the step */
     double dissipated_material, dissipated_friction, dissipated_contact;
     double dissipated_integrator; /* by the scheme; negative: gained */
@@ -144,23 +144,23 @@ typedef struct percale_energy {
     double imbalance;
 } percale_energy;
 
-/* What one step did. Energy, strain and speed are NaN where option `measure` leaves them out. */
+/* Report of one step. Energy, strain and speed are NaN where option `measure` leaves them out. */
 typedef struct percale_step_report {
     uint32_t struct_size;
     int status;                     /* percale_step_status */
     double time, dt;                /* s, at the end of the step; its length */
     double smallest_dt, largest_dt; /* s, of the parts the step was solved in */
-    int parts, rejected;            /* accepted lengths; lengths tried and found too inexact */
+    int parts, rejected;            /* accepted lengths; lengths rejected as too inexact */
     int newton_iterations, linear_iterations, line_search_cuts;
     const char* linear_solver; /* word of option linear_solver, in use at the end; "none" if nothing was solved */
-    int halvings;              /* how often a span was solved again as two halves */
+    int halvings;              /* how often a substep was solved again as two halves */
     int dropped_not_converged, dropped_blocked, dropped_not_finite, dropped_inexact; /* why */
     double residual;                                                                 /* relative to the first of the step */
-    double smallest_fraction; /* smallest part of a move that was free of crossing */
+    double smallest_fraction; /* smallest collision-free step size of a move */
     int sleeping_cloths;      /* at rest */
     int slept;                /* 1: all were, the step was not solved */
     int stopped;              /* 1: kinetic damping set all velocities to 0 at its end */
-    int contacts;             /* contact rows at the end */
+    int contacts;             /* contact constraints at the end */
     double smallest_distance; /* m; infinity if nothing was near */
     double contact_stiffness; /* N/m, largest of the step */
     double largest_strain;    /* of structural springs, (l - l0)/l0 */
@@ -168,14 +168,14 @@ typedef struct percale_step_report {
     int blocked_by_pin, blocked_cloth, blocked_vertex, blocking_obstacle; /* of a failed step; -1: none */
     double travel;       /* m, beside the cloth, of an obstacle or a pin that moves too far for a step */
     int pinched;         /* places where obstacles give way to cloth */
-    int yielded_in_vain; /* 1, of a failed step: what closed on the cloth gave way, but not enough */
+    int yielded_in_vain; /* 1, of a failed step: obstacles closed on the cloth and gave way, but not enough */
     double yielded;      /* m, farthest that an obstacle's vertex is from where it should be */
-    int pinching[2];     /* obstacles between which the cloth has least room; -1: none */
+    int pinching[2];     /* obstacles between which the cloth has the smallest room; -1: none */
     int second_obstacle; /* pushes the cloth towards the blocking one; -1: none */
     int stretched_cloth,
         stretched_pins;    /* of a step that failed or did not converge: held by pins, stretched to more than twice its length */
     double stretch;        /* its largest strain */
-    uint64_t contact_hash; /* of the contact rows at the end */
+    uint64_t contact_hash; /* of the contact constraints at the end */
     double kinetic, gravity, elastic, contact, work; /* J, as in percale_energy */
     double dissipated_material, dissipated_friction, dissipated_contact, dissipated_integrator, residual_work, imbalance;
     double refresh_s, evaluate_s, force_s, setup_s, solve_s, cut_s, measure_s; /* CPU seconds of the calling thread */
@@ -207,7 +207,7 @@ typedef struct percale_certificate {
     double smallest_distance;                          /* m, 0 where they intersect; infinity beyond the limit */
 } percale_certificate;
 
-/* One option of step settings or of a fabric, as percale_describe_* tells; texts live as long as the library. */
+/* One option of step settings or of a fabric, as percale_describe_* reports it; texts live as long as the library. */
 typedef struct percale_option {
     uint32_t struct_size;
     int takes_auto;  /* 1: the word "auto" is a value */

@@ -32,46 +32,45 @@ struct Certificate {
     bool clean() const { return pairs.empty() && vertices_inside == 0; }
 };
 
-/// A certificate that its caller did not wait for.
+/// Thrown where the caller cancelled a certificate.
 class CertificateCancelled : public std::runtime_error {
 public:
     CertificateCancelled() : std::runtime_error("the certificate was cancelled") {}
 };
 
-/// Exact check that does not share code with the solver: triangle-triangle tests by exact predicates, signed depth of every cloth
-/// vertex, smallest distance between the surfaces (searched up to `distance_limit`, m; beyond it stays infinity).
-/// Both meshes in world coordinates, finite. Thread-safe. Throws CertificateCancelled soon after `cancel`, where there is one,
-/// has become true.
+/// An exact check that shares no code with the solver: triangle-triangle tests by exact predicates, signed depth of every cloth
+/// vertex, smallest distance between the surfaces (searched up to `distance_limit`, m; beyond it stays infinity). Both meshes in
+/// world coordinates, finite. Thread-safe. Throws CertificateCancelled soon after `cancel`, where there is one, has become true.
 Certificate certify(const TriangleMesh& cloth, const TriangleMesh& obstacle,
                     double distance_limit = std::numeric_limits<double>::infinity(), const std::atomic<bool>* cancel = nullptr);
 
-/// Distance of each point to the nearest one of a mesh's surface, m; with a minus inside a watertight mesh. Exact apart from
-/// rounding. All in world coordinates, finite. Thread-safe. `cancel`: as of certify.
+/// Distance of each point from a mesh's surface, m; negative inside a watertight mesh. Exact apart from rounding. All in world
+/// coordinates, finite. Thread-safe. `cancel`: as of certify.
 std::vector<double> surface_distances(const TriangleMesh& mesh, std::span<const Vec3> points,
                                       const std::atomic<bool>* cancel = nullptr);
 
-/// Where cloth meets itself, all its pieces taken as one mesh.
+/// Intersections of cloth with itself, all its pieces taken as one mesh.
 struct ClothCertificate {
     std::vector<IntersectingPair> crossing;  // first < second, ordered; neighbours that share vertices included
     std::vector<IntersectingPair> touching;  // that share a point though no vertex, and do not cross
     std::vector<IntersectingPair> at_seams;  // crossing pairs of triangles at one stitch; in neither of the other lists
 };
 
-/// Exact, with the triangle-triangle tests of certify; shares no code with the solver. Neighbours cross where they share more
-/// than the vertices, edge or points that they have to. Triangles at one stitch (each has a vertex of it) are counted apart,
-/// since how far they cross is a matter of its gap and of how the sides of the seam are divided. Triangles of cloths that do not
-/// meet (`meeting`) are not looked at. Thread-safe. `cancel`: as of certify.
+/// An exact check with the triangle-triangle tests of certify, which shares no code with the solver. Neighbours cross where they
+/// share more than their common vertices, edge or points. Triangles at one stitch (each has a vertex of it) are counted
+/// separately, since how far they cross depends on its gap and on how the sides of the seam are divided. Triangles of cloths that
+/// do not meet (`meeting`) are not tested. Thread-safe. `cancel`: as of certify.
 ClothCertificate certify_cloth(const TriangleMesh& cloth, std::span<const Stitch> stitches = {}, const MeetingCloth& meeting = {},
                                const std::atomic<bool>* cancel = nullptr);
 
-/// Crossing pairs of one mesh, as far as they were looked for.
+/// Crossing pairs of one mesh, as far as they were searched for.
 struct CrossingSearch {
     std::vector<IntersectingPair> pairs;  // first < second, ordered
     bool complete = true;                 // false: one of the limits was reached
 };
 
 /// The crossing pairs of certify_cloth, at most `most_pairs` of them, from at most `most_tests` tests of two triangles, so that
-/// no mesh takes long: a fan of n triangles around one vertex alone asks for n^2/2. Thread-safe.
+/// no mesh takes long: a fan of n triangles around one vertex alone needs n^2/2 tests. Thread-safe.
 CrossingSearch find_crossings(const TriangleMesh& mesh, long most_pairs, long most_tests);
 
 /// Intersecting pairs inside one mesh, neighbours that share a vertex left out.

@@ -1,6 +1,6 @@
 #pragma once
 
-// CMake's targets say what a program links, so that a missing library is told here and not by the linker.
+// CMake's targets define what a program links, so that a missing library is reported here and not by the linker.
 #if defined(PERCALE_LINKS_ENGINE) && !defined(PERCALE_LINKS_COLLISION)
 #error "percale::engine alone has no contact detector: link percale::fcl, percale::bullet or percale::brute_force, too"
 #endif

@@ -6,7 +6,7 @@
 
 namespace percale {
 
-/// A cloth during a step if it went on as it moves: how an obstacle's way looks from it.
+/// The predicted motion of a cloth during a step at constant velocity, against which an obstacle's motion is measured.
 class ClothAhead {
 public:
     /// `thickness`: m; `dt`: length of the step, s.
@@ -25,13 +25,13 @@ public:
 
     double thickness() const { return thickness_; }
 
-    /// Whether the box of a ball of that radius, m, on its way from one place to the other meets the cloth's.
+    /// Whether the box of a ball of that radius, m, moving from one place to the other, meets the cloth's.
     bool meets(const Vec3& from, const Vec3& to, double radius) const {
         const Vec3 low = (from.cwiseMin(to).array() - radius).matrix(), high = (from.cwiseMax(to).array() + radius).matrix();
         return (low_.array() <= high.array()).all() && (low.array() <= high_.array()).all();
     }
 
-    /// A displacement, m, beside the mean one of the cloth's vertices.
+    /// A displacement relative to the mean one of the cloth's vertices, m.
     Vec3 beside(const Vec3& displacement) const { return displacement - displacements_ / static_cast<double>(count_); }
 
 private:

@@ -8,15 +8,15 @@
 
 namespace percale {
 
-/// What a cloth is to another, or to itself, where both have self_contact.
+/// The contact between two cloths, or of a cloth with itself, where both have self_contact.
 struct ClothPair {
     bool contact = true;                   // whether they meet
-    std::optional<double> thickness = {};  // m, below it they are in contact; without, the mean of their thicknesses
+    std::optional<double> thickness = {};  // m, activation distance; empty: the mean of their thicknesses
 
     bool operator==(const ClothPair&) const = default;
 };
 
-/// What is said of pairs of cloths, by the numbers of the cloths, in either order; of all others ClothPair{} holds. And the order
+/// The settings of pairs of cloths, by the numbers of the cloths in either order, with ClothPair{} as the default; and the order
 /// of layers.
 class ClothPairs {
 public:
@@ -28,11 +28,11 @@ public:
         const auto found = said_.find(key(first, second));
         return found == said_.end() ? ClothPair{} : found->second;
     }
-    /// Only what differs from ClothPair{}, the lower number first, in ascending order.
+    /// The pairs that differ from ClothPair{}, the lower number first, in ascending order.
     const std::map<std::array<int, 2>, ClothPair>& said() const { return said_; }
 
-    /// How far out a cloth is worn, 0 where nothing is said: of cloths that start through each other the one of the higher layer
-    /// goes outside.
+    /// The layer in which a cloth is worn, 0 by default: of cloths that start through each other the one of the higher layer goes
+    /// outside.
     void set_layer(int cloth, int layer) {
         layers_[cloth] = layer;
         if (layer == 0) layers_.erase(cloth);
@@ -41,7 +41,7 @@ public:
         const auto found = layers_.find(cloth);
         return found == layers_.end() ? 0 : found->second;
     }
-    /// Only those that are not 0.
+    /// The layers that are not 0.
     const std::map<int, int>& layers() const { return layers_; }
 
 private:
@@ -51,10 +51,10 @@ private:
     std::map<int, int> layers_;
 };
 
-/// Which cloth each of a list of triangles belongs to, and what cloths are to each other. Without `cloth` all meet all.
+/// The cloth of each of a list of triangles, and the pairs of cloths. Without `cloth` all meet all.
 struct MeetingCloth {
     std::span<const int> cloth = {};    // of each triangle
-    const ClothPairs* pairs = nullptr;  // null: nothing is said
+    const ClothPairs* pairs = nullptr;  // null: all pairs have the default
 
     bool meet(int first_triangle, int second_triangle) const {
         return cloth.empty() || pairs == nullptr || pairs->of(cloth[first_triangle], cloth[second_triangle]).contact;

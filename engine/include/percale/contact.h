@@ -18,33 +18,33 @@ class StateWriter;
 class StateReader;
 class Workers;
 
-/// Contact rows, a structure of arrays. Row i says: the cloth point sum_k weight[i][k] x[vertex[i][k]] is
-/// `distance` away from `obstacle_point`, along the unit vector `direction` (from the obstacle towards the cloth):
-/// direction . (sum_k weight[k] x[vertex[k]] - obstacle_point) = distance.
-/// Between two places of cloth the same holds with weights > 0 at one and < 0 at the other, obstacle_point 0: the direction
+/// Contact constraints, a structure of arrays. In constraint i the cloth point sum_k weight[i][k] x[vertex[i][k]] is at
+/// `distance` from `obstacle_point`, along the unit vector `direction` (from the obstacle towards the cloth): direction . (sum_k
+/// weight[k] x[vertex[k]] - obstacle_point) = distance.
+/// Between two places of cloth the same holds with weights > 0 at one and < 0 at the other and obstacle_point 0: the direction
 /// leads from the second to the first.
-/// The order of rows follows from cloth and obstacles alone, whatever the backend.
-struct ContactRows {
+/// The order of constraints follows from cloth and obstacles alone, whatever the backend.
+struct ContactConstraints {
     std::vector<std::array<int, 4>> vertex;     // cloth vertices; -1 = unused: 1 point, 2 edge, 3 triangle, 4 cloth on both sides
     std::vector<std::array<double, 4>> weight;  // sums to 1 against an obstacle, to 0 between cloths
     std::vector<Vec3> direction;                // unit
-    std::vector<Vec3> obstacle_point;           // m, world, at the asked fraction of the step
-    std::vector<Vec3> obstacle_displacement;    // m, how far that point moves during the whole step
+    std::vector<Vec3> obstacle_point;           // m, world, at the given fraction of the step
+    std::vector<Vec3> obstacle_displacement;    // m, of that point during the whole step
     std::vector<double> distance;               // m, from the cloth's middle surface to the obstacle or to the other's, > 0
-    std::vector<double> thickness;              // m, where the contact zone starts
+    std::vector<double> thickness;              // m, activation distance
     std::vector<double> friction;               // Coulomb coefficient
-    std::vector<double> share;  // 0 < share <= 1 of the stiffness: less where other rows stand for the contact, too;
-                                // projected, such a row is a spring
-    std::vector<int> obstacle;  // -1: cloth against cloth
-    std::vector<int> feature;   // obstacle triangle, edge or vertex, by number of vertices used; between cloths the
-                                // number of vertices on the first side: 1 vertex-face, 2 edge-edge
+    std::vector<double> mollifier;  // edge-edge mollifier, factor of the stiffness in (0, 1]: less where other constraints hold
+                                    // the contact, too; with projection such a constraint is a spring
+    std::vector<int> obstacle;      // -1: cloth against cloth
+    std::vector<int> feature;       // obstacle triangle, edge or vertex, by number of vertices used; between cloths the number of
+                                    // vertices on the first side: 1 vertex-face, 2 edge-edge
 
     std::size_t size() const { return vertex.size(); }
-    /// Adds the rows of another list behind these.
-    void append(const ContactRows& more) {
+    /// Appends the constraints of another list.
+    void append(const ContactConstraints& more) {
         for_each_list([](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); }, *this, more);
     }
-    /// Takes row i out; the later ones move up.
+    /// Removes constraint i; the later ones move up.
     void erase(std::size_t i) {
         for_each_list([i](auto& list) { list.erase(list.begin() + static_cast<std::ptrdiff_t>(i)); }, *this);
     }
@@ -53,19 +53,19 @@ struct ContactRows {
     }
 
 private:
-    template <class Work, class... Rows>
-    static void for_each_list(Work work, Rows&... rows) {
-        work(rows.vertex...);
-        work(rows.weight...);
-        work(rows.direction...);
-        work(rows.obstacle_point...);
-        work(rows.obstacle_displacement...);
-        work(rows.distance...);
-        work(rows.thickness...);
-        work(rows.friction...);
-        work(rows.share...);
-        work(rows.obstacle...);
-        work(rows.feature...);
+    template <class Work, class... Lists>
+    static void for_each_list(Work work, Lists&... constraints) {
+        work(constraints.vertex...);
+        work(constraints.weight...);
+        work(constraints.direction...);
+        work(constraints.obstacle_point...);
+        work(constraints.obstacle_displacement...);
+        work(constraints.distance...);
+        work(constraints.thickness...);
+        work(constraints.friction...);
+        work(constraints.mollifier...);
+        work(constraints.obstacle...);
+        work(constraints.feature...);
     }
 };
 
@@ -75,14 +75,14 @@ struct StepFraction {
     double to = 1.0;
 };
 
-/// What is wrong with a start position: the first obstacle that the cloth crosses, is inside of or touches; else cloth that
-/// crosses or touches cloth. Vertices have the engine's numbers where a detector returns it, those of the meshes in a StartError.
+/// The fault of a start position: the first obstacle that the cloth crosses, is inside of or touches; else cloth that crosses or
+/// touches cloth. Vertices have the engine's numbers where a detector returns it, those of the meshes in a StartError.
 struct StartFault {
-    int obstacle = -1;           // -1 = nothing is wrong with obstacles
+    int obstacle = -1;           // -1 = no fault with obstacles
     int intersecting_pairs = 0;  // cloth triangles that cross a triangle of it, or pairs of cloth triangles that cross
     int cloth_triangle = -1;     // one of them, counted through all cloths
     int obstacle_triangle = -1;
-    int other_cloth_triangle = -1;          // cloth against cloth: what cloth_triangle crosses or touches
+    int other_cloth_triangle = -1;          // cloth against cloth: the triangle that cloth_triangle crosses or touches
     int vertices_inside = 0;                // cloth vertices inside it, if it is watertight
     int inside_vertex = -1;                 // the deepest of them, counted through all cloths
     std::vector<int> inside_vertices = {};  // all of them, ascending
@@ -97,7 +97,7 @@ struct Untangled {
     std::vector<int> obstacle;    // for each vertex the obstacle it was moved out of; -1 where it was not moved
 };
 
-/// Cloth that starts where no simulation may start.
+/// Cloth starts where no simulation may start.
 class StartError : public SceneError {
 public:
     StartError(const std::string& message, const StartFault& fault) : SceneError(message), fault_(fault) {}
@@ -107,17 +107,17 @@ private:
     StartFault fault_;
 };
 
-/// Which cloth meets cloth, and what for that is known of each vertex.
+/// The cloth that meets cloth, and the data of its vertices for that.
 struct SelfContact {
     std::span<const int> cloth;        // the number of its cloth; -1: it meets no cloth
     std::span<const Vec3> rest;        // m, positions as the cloth was added
-    std::span<const double> friction;  // Coulomb coefficient of its fabric; between two fabrics the mean counts
-    /// What is sewn together. Features at one stitch never are in contact, others near one as if it were closed.
+    std::span<const double> friction;  // Coulomb coefficient of its fabric; between two fabrics their mean applies
+    /// Stitches of seams. Features at one stitch are never in contact, others near one as if it were closed.
     std::span<const Stitch> stitches = {};
     ClothPairs pairs = {};  // m, as thicknesses given to set_cloth
 };
 
-/// Finds contacts between all cloth of a simulation and its obstacles. Whole batches, plain types.
+/// Finds contacts between all cloth of a simulation and its obstacles, in whole batches with plain types.
 /// Within a step an obstacle vertex moves on the straight line from its place at the start to its place at the end.
 /// Not thread-safe: one detector belongs to one simulation.
 class ContactDetector {
@@ -125,84 +125,84 @@ public:
     virtual ~ContactDetector() = default;
 
     /// All cloth triangles of the simulation, in the order of the meshes that were added, and the contact thickness of each
-    /// vertex, m, > 0. Here and in all positions and rows vertices have the engine's numbers, not those of the meshes.
+    /// vertex, m, > 0. Here and in all positions and constraints vertices have the engine's numbers, not those of the meshes.
     virtual void set_cloth(std::span<const Triangle> triangles, std::span<const double> vertex_thickness) = 0;
 
-    /// After set_cloth, which forgets it: cloth that also meets cloth. Two features of it are in contact below the mean of their
-    /// thicknesses (half a thickness each), or of what `pairs` says, but at no more than half of their distance at rest where
-    /// they belong to one cloth or are near a seam.
+    /// Called after set_cloth, which resets it: cloth that also meets cloth. Two of its features are in contact below the mean of
+    /// their thicknesses (half a thickness each), or below that of `pairs`, but at no more than half of their distance at rest
+    /// where they belong to one cloth or are near a seam.
     virtual void set_self_contact(const SelfContact& cloth);
 
     /// Returns the obstacle's number. Throws SceneError if nothing is left of the mesh after cleaning.
     virtual int add_obstacle(const TriangleMesh& mesh, const Pose& pose, double friction) = 0;
 
-    /// Takes an obstacle out: from now on nothing meets it, and those that were added later have numbers less by one. What is
-    /// remembered of the others stays. A detector need not be able to.
+    /// Removes an obstacle: from now on nothing meets it, and the numbers of those added later decrease by one. The state kept
+    /// for the others stays. A detector may not support it.
     virtual void remove_obstacle(int obstacle);
 
-    /// Friction of an obstacle in all later rows. A detector need not be able to.
+    /// Sets the friction of an obstacle in all later constraints. A detector may not support it.
     virtual void set_friction(int obstacle, double friction);
 
-    /// Where the obstacle is at the two ends of the coming step and of all later ones until the next call. The scale must not
+    /// The poses of the obstacle at the two ends of the coming step and of all later ones until the next call. The scale must not
     /// change.
     virtual void move_obstacle(int obstacle, const Pose& start, const Pose& end) = 0;
 
-    /// The same of an obstacle that changes its shape: whose every vertex may go its own way. A detector need not be able to.
+    /// The same for an obstacle that changes its shape: its vertices may move independently. A detector may not support it.
     virtual int add_deforming_obstacle(const TriangleMesh& mesh, const Pose& pose, double friction);
 
-    /// Before move_obstacle, which places it: where the vertices of a deforming obstacle's mesh are before its pose, m, at the
-    /// two ends of the coming step and of all later ones until the next call. Throws SceneError where vertices that the mesh has
-    /// at one place part.
+    /// Called before move_obstacle, which places it: the positions of the vertices of a deforming obstacle's mesh before its
+    /// pose, m, at the two ends of the coming step and of all later ones until the next call. Throws SceneError where vertices at
+    /// one place of the mesh separate.
     virtual void deform_obstacle(int obstacle, std::span<const Vec3> start, std::span<const Vec3> end);
 
-    /// Whether this start may be simulated: no crossing, no touching, no vertex inside a watertight obstacle; no cloth
+    /// Checks whether this start may be simulated: no crossing, no touching, no vertex inside a watertight obstacle; no cloth
     /// crosses or touches cloth that it meets.
     virtual StartFault check_start(std::span<const Vec3> positions) = 0;
 
     /// Positions clear of every obstacle, as near to the given ones as was found; nothing where none were found. Vertices with
-    /// free = 0 stay. A connected patch of cloth leaves by one side; what is near it follows, so that the cloth is not torn, but
-    /// it may be stretched. Obstacles are where they are at the start of the step. A detector need not be able to do this.
+    /// free = 0 stay. A connected piece of cloth leaves by one side; its surroundings follow, so that the cloth is not torn, but
+    /// it may be stretched. Obstacles are where they are at the start of the step. A detector may not support this.
     virtual std::optional<Untangled> untangle(std::span<const Vec3> positions, std::span<const double> free) {
         static_cast<void>(positions), static_cast<void>(free);
         return std::nullopt;
     }
 
     /// Positions in which no cloth that meets cloth crosses or touches such cloth, as near to the given ones as was found,
-    /// whatever the obstacles; vertices sewn to each other have one place. Nothing where none were found. Vertices with free = 0
+    /// regardless of obstacles; vertices sewn to each other have one place. Nothing where none were found. Vertices with free = 0
     /// stay.
     virtual std::optional<std::vector<Vec3>> untangle_cloth(std::span<const Vec3> positions, std::span<const double> free) {
         static_cast<void>(positions), static_cast<void>(free);
         return std::nullopt;
     }
 
-    /// Once a step: makes the candidate lists good for moves between these positions. Outrunning them later is allowed:
-    /// the lists then grow.
-    virtual void refresh(std::span<const Vec3> start, std::span<const Vec3> predicted) = 0;
+    /// Called once a step: makes the candidate lists valid for moves between these positions. Later moves beyond them are
+    /// allowed: the lists then grow.
+    virtual void update_candidates(std::span<const Vec3> start, std::span<const Vec3> predicted) = 0;
 
-    /// Every contact closer than the thickness, with obstacles at `fraction` of the step. A pair of features that was a contact
-    /// since the last refresh stays one while it is that near, unless a nearer one of the same vertex in nearly the same
-    /// direction has taken its place: within one solve forces change continuously. Those between cloths begin anew with
-    /// each refresh.
-    virtual void evaluate(std::span<const Vec3> positions, double fraction, ContactRows& rows) = 0;
+    /// Every contact closer than the activation distance, with obstacles at `fraction` of the step. A pair of features that has
+    /// been a contact since the last update of the candidates persists while it is that near, unless a nearer one of the same
+    /// vertex in nearly the same direction has replaced it: within one solve forces change continuously. Those between cloths
+    /// begin anew with each update.
+    virtual void find_contacts(std::span<const Vec3> positions, double fraction, ContactConstraints& constraints) = 0;
 
-    /// The largest f in [0, 1] such that moving all vertices along from + f (to - from), while the obstacles move over
-    /// f of the part of the step, keeps every distance above a small positive floor.
-    virtual double largest_safe_fraction(std::span<const Vec3> from, std::span<const Vec3> to, StepFraction part) = 0;
+    /// The largest f in [0, 1] such that moving all vertices along from + f (to - from), while the obstacles move over f of the
+    /// part of the step, keeps every distance above a small positive floor.
+    virtual double collision_free_step_size(std::span<const Vec3> from, std::span<const Vec3> to, StepFraction part) = 0;
 
-    /// Smallest distance of the last evaluation, m; infinity if nothing was near. Between cloths those of its rows count.
+    /// Smallest distance of the last search for contacts, m; infinity if nothing was near. Between cloths that of its constraints
+    /// counts.
     virtual double smallest_distance() const = 0;
 
-    /// Threads that later calls may share their work among, null: none; they stay as long as the detector. What is found does not
-    /// depend on them.
+    /// Threads for the work of later calls, null: none; they stay as long as the detector. The results do not depend on them.
     virtual void set_workers(Workers* workers) { static_cast<void>(workers); }
 
-    /// While this is true, untangle and untangle_cloth find no way, soon. Null: none. A detector need not look.
+    /// While this is true, untangle and untangle_cloth soon end without a result. Null: none. A detector may ignore it.
     virtual void set_cancel(const std::atomic<bool>* cancel) { static_cast<void>(cancel); }
 
-    /// What later calls depend on besides cloth and obstacles: poses, lists, contacts kept. A detector with the same cloth and
-    /// obstacles that reads it (saved_state.h) gives the same bits from its next refresh on. Throws SceneError if it cannot.
+    /// All state of later calls besides cloth and obstacles: poses, lists, contacts kept. A detector with the same cloth and
+    /// obstacles that reads it (saved_state.h) gives the same bits from its next update on. Throws SceneError if it cannot.
     virtual void save(StateWriter& state) const;
-    /// Reads to the end. Throws SceneError, and leaves all as it was, if the state is not one of this cloth and these obstacles.
+    /// Reads to the end. Throws SceneError, and changes nothing, if the state is not one of this cloth and these obstacles.
     virtual void restore(StateReader& state);
 };
 

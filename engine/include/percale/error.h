@@ -14,7 +14,7 @@ public:
     SceneError(const std::string& subject, const std::string& reason)
         : std::runtime_error(subject.empty() ? reason : subject + ": " + reason), subject_(subject), reason_(reason) {}
 
-    /// What the error is about: the name that the caller gave, or a place; "" if it does not say.
+    /// The subject of the error: the name that the caller gave, or a place; "" if there is none.
     const std::string& subject() const { return subject_; }
     /// The message without the subject.
     const std::string& reason() const { return reason_; }

@@ -12,17 +12,18 @@ struct SpringConstants {
     double bend = 0.0;           // two apart along rows and columns; across each inner edge of a free mesh
 };
 
-/// What a membrane of given moduli is made of.
+/// The model of a membrane with given moduli.
 enum class Membrane {
     triangle_springs,  // biquadratic springs in triangles: exact, warp and weft may differ
     van_gelder,        // plain springs on edges: isotropic, 1.2 times too stiff on grids
 };
 
-/// What a cloth is made of: raw springs, or moduli if stretch_stiffness is set. Ranges and sentences of every field: options.h.
+/// The material of a cloth: raw springs, or moduli if stretch_stiffness is set. options.h has the range and a sentence for every
+/// field.
 struct Fabric {
     double area_density = 0.2;     // kg/m^2
     double thickness = 0.005;      // m, gap kept from obstacles, measured from the middle surface
-    bool self_contact = false;     // it meets itself and all other cloth of which this is true
+    bool self_contact = false;     // it meets itself and all other cloth with self_contact
     double friction = 0.3;         // Coulomb coefficient against such cloth
     SpringConstants springs = {};  // N/m; unused with stretch_stiffness
     double spring_damping = 0.1;   // N s/m of each spring, along the spring only; unused with damping_time

@@ -45,11 +45,11 @@ std::vector<Vec3> transform(const Pose& pose, std::span<const Vec3> points);
 /// The point whose image under the pose is `x`.
 Vec3 inverse_transform(const Pose& pose, const Vec3& x);
 
-/// The turn that does what `second` does after `first`.
+/// The rotation by `first`, then by `second`.
 Rotation product(const Rotation& second, const Rotation& first);
-/// Of the shortest turn from one to the other, rad, 0 ... pi.
+/// The angle of the shortest rotation from one to the other, rad, 0 ... pi.
 double angle_between(const Rotation& a, const Rotation& b);
-/// The pose at a share, 0 ... 1, of the way from one to the other: on the straight line, by the shortest turn at an even rate
+/// The pose at a fraction `share`, 0 ... 1, between two poses: on the straight line, by the shortest rotation at an even rate
 /// (Shoemake 1985, Animating rotation with quaternion curves), at the scale of the first.
 Pose interpolate(const Pose& from, const Pose& to, double share);
 
@@ -75,9 +75,9 @@ TriangleMesh make_capsule(double radius, double height, int segments);
 /// Horizontal square of two triangles at y = 0, normals +y; half_size > 0 in m.
 TriangleMesh make_plane(double half_size);
 
-/// What a mesh must hold to be simulated or collided with. Throws SceneError naming `name`, the index and the value:
-/// not finite, index out of range, no triangles. With `for_cloth`: also duplicate triangles, zero-area
-/// triangles, edges with three or more triangles, vertices without a triangle.
+/// Checks that a mesh can be simulated or collided with. Throws SceneError naming `name`, the index and the value: not finite,
+/// index out of range, no triangles. With `for_cloth`: also duplicate triangles, zero-area triangles, edges with three or more
+/// triangles, vertices without a triangle.
 void check_mesh(const TriangleMesh& mesh, const std::string& name, bool for_cloth);
 
 }  // namespace percale

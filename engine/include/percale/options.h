@@ -14,17 +14,18 @@
 namespace percale {
 
 /// One field of an options struct, described once: the scene loader, the checks, `percale explain`, the settings in report.json
-/// and the key table scenes/scene_keys.md all walk these lists.
+/// and the key table scenes/scene_keys.md all read these lists.
 template <class Owner>
 struct Option {
     std::string_view key;                                      // dotted key inside the owner's table of a scene file
     std::string_view unit;                                     // "" if it has none
-    std::string_view sentence;                                 // what it does
+    std::string_view sentence;                                 // its meaning
+    std::string_view former = {};                              // the key of the previous release, which still works
     double lowest = -std::numeric_limits<double>::infinity();  // allowed range of a number, both ends included
     double highest = std::numeric_limits<double>::infinity();
     std::span<const std::string_view> choices = {};  // allowed words, for choices
     bool required = false;                           // in its table of a scene file
-    bool changes_steps = true;                       // of StepSettings: what steps do depends on it whatever the state
+    bool changes_steps = true;                       // of StepSettings: steps depend on it whatever the state
 
     // Exactly one of these is set (`automatic` beside `number`); it names the field.
     double* (*number)(Owner&) = nullptr;
@@ -42,16 +43,16 @@ struct Option {
 std::span<const Option<Fabric>> fabric_options();
 std::span<const Option<StepSettings>> step_options();
 
-/// A hash of the fields that change what steps do, whatever the state. What a saved state holds itself (gravity, wind, the number
-/// of time_step) does not count, and neither does what changes no step (Option::changes_steps).
+/// A hash of the fields on which steps depend, whatever the state. It leaves out the values that a saved state holds itself
+/// (gravity, wind, time_step) and the fields that change no step (Option::changes_steps).
 std::uint64_t options_hash(const StepSettings& settings);
 
 /// The schemes, one line each: order, kind, contact, cost and stability.
 std::string scheme_table_text();
 
-/// Throw SceneError naming `owner_name`, the key, the value and the allowed range; for a fabric also where two keys exclude each
-/// other: springs (other than its default or none) and stretch_stiffness, springs.bend and bend_stiffness, spring_damping and
-/// damping_time.
+/// These throw SceneError naming `owner_name`, the key, the value and the allowed range; for a fabric also where two keys exclude
+/// each other: springs (other than its default or none) and stretch_stiffness, springs.bend and bend_stiffness, spring_damping
+/// and damping_time.
 void check_options(const Fabric& fabric, std::string_view owner_name);
 void check_options(const StepSettings& settings, std::string_view owner_name);
 

@@ -17,8 +17,8 @@
 
 namespace percale {
 
-/// Whether lists of a type are written as they lie in memory: numbers, and structs without gaps of which every bit pattern is
-/// one. `exchange` of such a struct names all its fields in their order, so that one alone makes the same bytes.
+/// Whether lists of a type are written in their memory layout: numbers, and structs without gaps for which every bit pattern is
+/// valid. `exchange` of such a struct names all its fields in their order, so that a single value makes the same bytes.
 template <class Value>
 inline constexpr bool is_plain_state = std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>;
 template <>
@@ -28,14 +28,14 @@ inline constexpr bool is_plain_state<Vec3> = sizeof(Vec3) == 3 * sizeof(double);
 template <class Value, std::size_t count>
 inline constexpr bool is_plain_state<std::array<Value, count>> = is_plain_state<Value>;
 
-/// Takes down the values of a state, one after the other and every bit of them: numbers, Vec3, text, and arrays, lists and
-/// optionals of what it takes. A struct is taken down by `exchange(archive, value)`, a function beside it that names its fields
-/// once, for StateWriter and StateReader alike.
+/// Writes the values of a state, one after the other and every bit of them: numbers, Vec3, text, and arrays, lists and optionals
+/// of these. A struct is written by `exchange(archive, value)`, a function beside it that names its fields once, for StateWriter
+/// and StateReader alike.
 class StateWriter {
 public:
     static constexpr bool reads = false;
 
-    /// `expected`: bytes that may come, for which memory is taken at once.
+    /// `expected`: number of bytes for which memory is reserved.
     explicit StateWriter(std::size_t expected = 4096) : bytes_(std::max(expected, std::size_t{64})) {}
 
     template <class... Values>
@@ -97,8 +97,8 @@ private:
     std::size_t used_ = 0;  // of them
 };
 
-/// Reads what a StateWriter took down, in the same order. Throws SceneError where the bytes end too early or hold what no writer
-/// writes; never takes more memory than a few times that of the bytes.
+/// Reads the values of a StateWriter, in the same order. Throws SceneError where the bytes end too early or hold values that no
+/// writer writes; never takes more memory than a few times that of the bytes.
 class StateReader {
 public:
     static constexpr bool reads = true;
@@ -118,7 +118,7 @@ public:
         value = static_cast<Enum>(number);
     }
     bool at_end() const { return at_ == bytes_.size(); }
-    /// Throws SceneError, which says where in the bytes, unless what was read is good.
+    /// Throws SceneError, with the place in the bytes, unless `good`.
     void demand(bool good, const char* fault) const {
         if (!good) refuse(fault);
     }
@@ -166,7 +166,7 @@ private:
             for (; left > 0; --left) get(values.emplace_back());
         }
     }
-    /// A count of values that take `bytes` each at least.
+    /// A count of values that take at least `bytes` each.
     std::size_t count_of(std::size_t bytes) {
         std::uint64_t count = 0;
         get(count);
@@ -195,7 +195,7 @@ void exchange(Archive& archive, Value& rotation) {
 /// Whether a pose is finite, its rotation of length 1 and its scale above 0.
 bool is_proper(const Pose& pose);
 
-/// What is no proper pose is refused.
+/// Refuses improper poses.
 template <class Archive, OfType<Pose> Value>
 void exchange(Archive& archive, Value& pose) {
     archive(pose.translation, pose.rotation, pose.scale);
@@ -205,17 +205,17 @@ void exchange(Archive& archive, Value& pose) {
 /// A hash of bytes.
 std::uint64_t checksum(std::span<const std::byte> bytes);
 
-/// What sealed bytes say of themselves.
+/// The header of sealed bytes.
 struct SealKind {
     std::string_view name;      // eight letters
-    std::uint32_t version = 0;  // of what follows
+    std::uint32_t version = 0;  // of the content
     std::string_view words;     // for messages: "saved state"
 };
 
 /// The content with kind, length and checksum in front.
 std::vector<std::byte> sealed(const SealKind& kind, std::span<const std::byte> content);
 
-/// The same without a copy: a writer that has room for the seal, which is put there when the content is complete.
+/// The same without a copy: a writer with room for the seal, which is written when the content is complete.
 StateWriter begin_sealed(std::size_t expected = 4096);
 std::vector<std::byte> end_sealed(const SealKind& kind, StateWriter& writer);
 

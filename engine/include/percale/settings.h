@@ -26,41 +26,42 @@ enum class DampingForm { length_rate, velocity };
 enum class StepMeasures { automatic, all, none, ledger };
 enum class StartRule { repair, refuse };
 
-/// How the simulation steps. Ranges and sentences of every field: options.h.
+/// The settings of a simulation's steps. options.h has the range and a sentence for every field.
 struct StepSettings {
-    double time_step = 1.0 / 60.0;  // s, what one call of Simulation::step advances by
+    double time_step = 1.0 / 60.0;  // s, advance of one call of Simulation::step
     /// Divide each step into as many shorter ones as `tolerance` asks for.
     bool adaptive = false;
     double tolerance = 1e-3;  // m of position error for each second of simulation; used if adaptive
     Scheme scheme = Scheme::backward_euler;
-    /// Residual relative to the first of the step; empty = solver error below newton_share of the step's time error.
+    /// Residual relative to the first of the step; empty = solver error below newton_error_ratio of the step's time error.
     std::optional<double> newton_tolerance = {};
-    double newton_share = 1.0;   // 0.001 ... 100
-    int newton_iterations = 50;  // at most; 1 = linearly implicit
-    /// Newton iterations of one step, of all that it is divided into and solved again; 0: no limit. Where they do not do, the
-    /// step fails (StepStatus::work_limit), a few iterations later at most.
+    double newton_error_ratio = 1.0;  // 0.001 ... 100
+    int newton_iterations = 50;       // at most; 1 = linearly implicit
+    /// Newton iterations of one step, over all its substeps, repeated ones included; 0: no limit. Beyond them the step fails
+    /// (StepStatus::work_limit), within a few more iterations.
     int work_limit = 10000;
     LinearSolver linear_solver = LinearSolver::automatic;
     ContactResponse contact_response = ContactResponse::penalty;
-    /// length_rate: kd (l - l_n)/dt along the current direction, backward Euler only; velocity: kd (v_ij . d), as all others
-    /// have it.
+    /// length_rate: kd (l - l_n)/dt along the current direction, backward Euler only; velocity: kd (v_ij . d), as in all other
+    /// schemes.
     DampingForm damping_form = DampingForm::length_rate;
-    int threads = 1;  // of one simulation, 1 ... 64; 0: as many as pay. Same bits for any number
-    /// What a step report has besides contacts. all: energy, strain and speed; ledger: it also says what became of energy
-    /// (StepEnergy). none, automatic: neither (NaN); Simulation::energy, largest_strain and largest_speed tell on demand, and a
+    int threads = 1;  // of one simulation, 1 ... 64; 0: as many as are useful. Same bits for any number
+    /// The contents of a step report besides contacts. all: energy, strain and speed; ledger: the energy balance (StepEnergy),
+    /// too. none, automatic: neither (NaN); Simulation::energy, largest_strain and largest_speed compute them on demand, and a
     /// scene file's run asks for what its outputs need.
     StepMeasures measure = StepMeasures::automatic;
-    /// repair: cloth that starts through, inside or touching an obstacle, or with self_contact through such cloth, is moved out
-    /// before the first step, as Simulation::start_repair tells; refuse: such a start is an error.
+    /// repair: resolves initial penetration: cloth that starts through, inside or touching an obstacle, or with self_contact
+    /// through such cloth, is moved out before the first step (Simulation::start_repair reports it); refuse: such a start is an
+    /// error.
     StartRule start = StartRule::repair;
     bool skip = true;  // leave out what the scene does not need (Simulation::plan); false runs everything
     /// Stops all cloth (velocities become 0) after each step in which its potential energy, elastic and of gravity, has risen:
-    /// what swings comes to rest sooner, what creeps is left alone; the path there means nothing. Where it rises again within a
-    /// few steps, time and again, each step of the next second stops it. Not while pins or obstacles move, seams close or wind
-    /// blows. Kinetic damping of dynamic relaxation (Barnes 1999, Form finding and analysis of tension structures by dynamic
-    /// relaxation), by the potential instead of the kinetic energy.
+    /// swinging cloth comes to rest sooner, creeping cloth is not affected; the path has no physical meaning. Where it rises
+    /// again within a few steps, repeatedly, each step of the next second stops it. Not while pins or obstacles move, seams close
+    /// or wind blows. This is kinetic damping of dynamic relaxation (Barnes 1999, Form finding and analysis of tension structures
+    /// by dynamic relaxation), by the potential instead of the kinetic energy.
     bool kinetic_damping = false;
-    /// m/s. Cloth is still that has kept within half a second times this of one place; empty: within 0.002 of its thickness.
+    /// m/s. Cloth is still if it stays within half a second times this of one place; empty: within 0.002 of its thickness.
     std::optional<double> rest_speed = {};
     bool check_derivatives = false;        // after each step, of every force at its end state; slow, for those who change forces
     Vec3 gravity = Vec3(0.0, -9.81, 0.0);  // m/s^2

@@ -6,25 +6,25 @@
 
 namespace percale {
 
-/// Threads that do numbered parts of work: a pool of the library (make_workers), or a host's job system behind this interface.
+/// Threads that work on numbered parts: a pool of the library (make_workers), or a host's job system behind this interface.
 /// Results do not depend on them. Several simulations may share one, from any threads.
 class Workers {
 public:
     virtual ~Workers() = default;
 
-    /// How many parts run at the same time at most, the caller's included; 1 ... 64, and always the same.
+    /// The largest number of parts that run at the same time, the caller's included; 1 ... 64, and always the same.
     virtual int threads() const = 0;
 
     /// Calls work(data, part, slot) once for each part of 0 ... parts - 1, in any order and on any threads, and returns when all
-    /// are done; what they wrote is then seen by the caller. Calls at the same time have different slots of 0 ... threads() - 1.
-    /// `work` throws nothing and does not call run. Where the threads are busy for another caller, the caller does all parts.
+    /// are done; the caller then sees what they wrote. Simultaneous calls have different slots of 0 ... threads() - 1. `work`
+    /// throws nothing and does not call run. Where the threads are busy for another caller, the caller does all parts.
     virtual void run(int parts, void (*work)(void* data, int part, int slot), void* data) = 0;
 
     /// CPU seconds that threads other than its callers have used so far; 0 where that is not known.
     virtual double other_cpu_seconds() const { return 0.0; }
 };
 
-/// A host's workers have not kept what `run` promises: what was being computed cannot be trusted.
+/// A host's workers have violated the contract of `run`: the results of the computation cannot be trusted.
 class WorkersError : public SceneError {
 public:
     using SceneError::SceneError;

@@ -30,7 +30,7 @@ class StepKeys(TypedDict, total=False):
     scheme: Literal["forward_euler", "symplectic_euler", "midpoint", "rk4", "backward_euler", "implicit_midpoint",
                     "trapezoid", "bdf2", "tr_bdf2", "auto"]
     newton_tolerance: float | Literal["auto"]
-    newton_share: float
+    newton_error_ratio: float
     newton_iterations: int
     work_limit: int | Literal["auto"]
     linear_solver: Literal["auto", "cg", "multigrid", "direct"]
@@ -213,7 +213,7 @@ class StepEnergy:
     @property
     def dissipated(self) -> float: ...
 
-class DroppedSpans:
+class DroppedSubsteps:
     @property
     def not_converged(self) -> int: ...
     @property
@@ -286,7 +286,7 @@ class StepReport:
     @property
     def halvings(self) -> int: ...
     @property
-    def dropped(self) -> DroppedSpans: ...
+    def dropped(self) -> DroppedSubsteps: ...
     @property
     def residual(self) -> float: ...
     @property

@@ -7,7 +7,7 @@
 
 namespace percale::test {
 
-/// How Bullet takes the elastic forces; damping is implicit in both.
+/// Bullet's treatment of the elastic forces; damping is implicit in both.
 enum class BulletForces { implicit, explicit_ };
 
 /// The hanging sheet of n x n vertices in Bullet's deformable world: the masses, springs, damping and pins of bench_fabric()'s
@@ -23,7 +23,7 @@ public:
     double largest_strain() const;
     /// Height of the lowest vertex, m.
     double lowest() const;
-    /// Of all vertices, m, row by row.
+    /// Positions of all vertices, m, row by row.
     std::vector<Vec3> positions() const;
 
 private:

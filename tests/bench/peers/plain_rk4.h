@@ -8,8 +8,8 @@
 
 namespace percale::test {
 
-/// The hanging sheet by classical Runge-Kutta as one would write it first: an array of springs, an array of vertices, one thing
-/// after the other. Shares no code with the engine but the type of a 3-vector.
+/// The hanging sheet by classical Runge-Kutta in a straightforward implementation: an array of springs, an array of vertices,
+/// one operation after the other. It shares no code with the engine but the type of a 3-vector.
 class PlainRk4 {
 public:
     explicit PlainRk4(int n) : springs_(plain_springs(n)), x_(static_cast<std::size_t>(n) * n), v_(x_.size(), Vec3::Zero()) {

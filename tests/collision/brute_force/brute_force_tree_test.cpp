@@ -5,9 +5,11 @@
 
 namespace percale::test::brute_force_tree_test {
 
-TEST_CASE("brute_force: a tree finds every triangle whose box overlaps the asked one") { check_tree_laws(make_brute_force_tree); }
+TEST_CASE("brute_force: a tree finds every triangle whose box overlaps the queried one") {
+    check_tree_laws(make_brute_force_tree);
+}
 
-TEST_CASE("brute_force: triangles that no split tells apart are found like all others") {
+TEST_CASE("brute_force: triangles that no split separates are found like all others") {
     check_degenerate_trees(make_brute_force_tree);
 }
 

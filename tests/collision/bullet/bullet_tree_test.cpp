@@ -5,9 +5,9 @@
 
 namespace percale::test::bullet_tree_test {
 
-TEST_CASE("bullet: a tree finds every triangle whose box overlaps the asked one") { check_tree_laws(make_bullet_tree); }
+TEST_CASE("bullet: a tree finds every triangle whose box overlaps the queried one") { check_tree_laws(make_bullet_tree); }
 
-TEST_CASE("bullet: triangles that no split tells apart are found like all others") { check_degenerate_trees(make_bullet_tree); }
+TEST_CASE("bullet: triangles that no split separates are found like all others") { check_degenerate_trees(make_bullet_tree); }
 
 TEST_CASE("bullet: rounding boxes outwards adds only a few triangles") {
     const TriangleMesh mesh = make_sphere(0.8, 4);
@@ -22,7 +22,7 @@ TEST_CASE("bullet: rounding boxes outwards adds only a few triangles") {
     CHECK(apart < static_cast<long>(found.ids.size()) / 10);
 }
 
-TEST_CASE("bullet: boxes beside, around and far from the mesh are asked without harm") {
+TEST_CASE("bullet: boxes beside, around and far from the mesh are queried without harm") {
     // The tree's 16-bit coordinates end at the mesh: what lies beyond must be neither wrapped round nor lost.
     const TriangleMesh mesh = make_box({1, 1, 1});
     for (const double size : {1e-3, 1.0, 1e3}) {

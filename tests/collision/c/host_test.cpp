@@ -65,7 +65,7 @@ TEST_CASE("A host's threads give the same state in every bit as the library's, a
     CHECK(swinging_hashes(nullptr, {{"threads", "2"}}) == alone);
 }
 
-TEST_CASE("A simulation whose host leaves out parts, or numbers its threads wrongly, says so from then on") {
+TEST_CASE("A simulation whose host leaves out parts, or numbers its threads wrongly, reports it from then on") {
     ThreadHost host;
     const percale_workers workers = workers_of(host);
     const CSimulation simulation = c_simulation("none", {}, &workers);

@@ -38,7 +38,7 @@ TEST_CASE("The version has three numbers") {
     CHECK(static_cast<std::size_t>(read) == version.size());
 }
 
-TEST_CASE("Detectors are asked for by word") {
+TEST_CASE("Detectors are queried by word") {
     CHECK(percale_has_detector("none") == 1);
     CHECK(percale_has_detector("brute_force") == 1);
     CHECK(percale_has_detector("Brute_Force") == 0);

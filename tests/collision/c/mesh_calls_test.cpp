@@ -73,31 +73,31 @@ TEST_CASE("Wrong meshes are refused and nothing is made") {
 
 TEST_CASE("The certificate through C is that of C++") {
     const TriangleMesh ball = make_sphere(0.3, 2);
-    auto told = c_struct(percale_init_certificate);
+    auto reported = c_struct(percale_init_certificate);
     for (const double height : {0.1, 0.295, 0.35}) {
         TriangleMesh sheet = make_grid(0.6, 0.6, 9, 9);
         for (Vec3& x : sheet.vertices) x.y() = height;
         const Certificate found = certify(sheet, ball);
-        well(percale_certify(c_mesh(sheet).get(), c_mesh(ball).get(), INFINITY, &told));
-        CHECK(told.intersecting_pairs == found.pairs.size());
-        CHECK(told.touching_pairs == static_cast<std::uint64_t>(found.touching_pairs));
-        CHECK((told.watertight == 1) == found.watertight);
-        CHECK(told.vertices_inside == found.vertices_inside);
-        CHECK(told.deepest_vertex == found.deepest_vertex);
-        CHECK(told.deepest_penetration == found.deepest_penetration);
-        CHECK(told.smallest_distance == found.smallest_distance);
-        CHECK(told.first_cloth_triangle == (found.pairs.empty() ? -1 : found.pairs[0].first));
-        CHECK(told.first_obstacle_triangle == (found.pairs.empty() ? -1 : found.pairs[0].second));
+        well(percale_certify(c_mesh(sheet).get(), c_mesh(ball).get(), INFINITY, &reported));
+        CHECK(reported.intersecting_pairs == found.pairs.size());
+        CHECK(reported.touching_pairs == static_cast<std::uint64_t>(found.touching_pairs));
+        CHECK((reported.watertight == 1) == found.watertight);
+        CHECK(reported.vertices_inside == found.vertices_inside);
+        CHECK(reported.deepest_vertex == found.deepest_vertex);
+        CHECK(reported.deepest_penetration == found.deepest_penetration);
+        CHECK(reported.smallest_distance == found.smallest_distance);
+        CHECK(reported.first_cloth_triangle == (found.pairs.empty() ? -1 : found.pairs[0].first));
+        CHECK(reported.first_obstacle_triangle == (found.pairs.empty() ? -1 : found.pairs[0].second));
     }
     const CMesh mesh = c_mesh(ball);
-    const auto before = told;
-    fails(percale_certify(mesh.get(), mesh.get(), -1.0, &told), PERCALE_INVALID_ARGUMENT, "percale_certify", "-1");
-    fails(percale_certify(nullptr, mesh.get(), 1.0, &told), PERCALE_INVALID_ARGUMENT, "percale_certify", "cloth");
-    fails(percale_certify(mesh.get(), nullptr, 1.0, &told), PERCALE_INVALID_ARGUMENT, "percale_certify", "obstacle");
+    const auto before = reported;
+    fails(percale_certify(mesh.get(), mesh.get(), -1.0, &reported), PERCALE_INVALID_ARGUMENT, "percale_certify", "-1");
+    fails(percale_certify(nullptr, mesh.get(), 1.0, &reported), PERCALE_INVALID_ARGUMENT, "percale_certify", "cloth");
+    fails(percale_certify(mesh.get(), nullptr, 1.0, &reported), PERCALE_INVALID_ARGUMENT, "percale_certify", "obstacle");
     fails(percale_certify(mesh.get(), mesh.get(), 1.0, nullptr), PERCALE_INVALID_ARGUMENT, "percale_certify", "certificate");
-    told.struct_size = 8;
-    fails(percale_certify(mesh.get(), mesh.get(), 1.0, &told), PERCALE_INVALID_ARGUMENT, "percale_certify", "struct_size");
-    CHECK(told.smallest_distance == before.smallest_distance);
+    reported.struct_size = 8;
+    fails(percale_certify(mesh.get(), mesh.get(), 1.0, &reported), PERCALE_INVALID_ARGUMENT, "percale_certify", "struct_size");
+    CHECK(reported.smallest_distance == before.smallest_distance);
 }
 
 TEST_CASE("Cloth that crosses itself is counted through C as in C++") {
@@ -117,7 +117,7 @@ TEST_CASE("Cloth that crosses itself is counted through C as in C++") {
           "NULL");
 }
 
-TEST_CASE("Strains of a sheet that is stretched by known shares, at the scale of its pose") {
+TEST_CASE("Strains of a sheet that is stretched by known fractions, at the scale of its pose") {
     TriangleMesh flat = make_grid(0.4, 0.4, 3, 3);
     flat.grid_columns = flat.grid_rows = 0;
     const CMesh mesh = c_mesh(flat);

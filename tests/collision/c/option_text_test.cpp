@@ -83,9 +83,20 @@ TEST_CASE("Options of no number, or of whole ones, refuse other numbers") {
     CHECK(settings.threads == 2);
 }
 
-TEST_CASE("A key that is none is told the keys that there are") {
+TEST_CASE("The error of an unknown key names the existing keys") {
     CHECK_THROWS_WITH(option_of(step_options(), "timestep"), Catch::Contains("timestep") && Catch::Contains("time_step"));
     CHECK_THROWS_WITH(option_of(fabric_options(), "springs"), Catch::Contains("springs.structural"));
+}
+
+TEST_CASE("An option is found by its former key, too") {
+    int former = 0;
+    for (const Option<StepSettings>& option : step_options()) {
+        if (option.former.empty()) continue;
+        ++former;
+        CHECK(&option_of(step_options(), option.former) == &option);
+    }
+    CHECK(former == 1);
+    CHECK_THROWS_AS(option_of(step_options(), ""), SceneError);
 }
 
 TEST_CASE("Text of a number keeps every bit") {

@@ -28,20 +28,23 @@ Fields figures_of(StepReport& report) {
 }
 
 /// In the order of figures_of.
-Fields figures_of(percale_step_report& told) {
-    Fields fields{&told.time, &told.dt, &told.smallest_dt, &told.largest_dt, &told.residual, &told.smallest_fraction};
-    fields.insert(fields.end(), {&told.smallest_distance, &told.contact_stiffness, &told.largest_strain, &told.travel,
-                                 &told.time_error, &told.jump});
-    fields.insert(fields.end(), {&told.largest_speed, &told.yielded, &told.stretch, &told.cpu_s, &told.refresh_s});
-    fields.insert(fields.end(), {&told.evaluate_s, &told.force_s, &told.setup_s, &told.solve_s, &told.cut_s, &told.measure_s});
-    fields.insert(fields.end(), {&told.kinetic, &told.gravity, &told.elastic, &told.contact, &told.work});
-    fields.insert(fields.end(), {&told.dissipated_material, &told.dissipated_friction, &told.dissipated_contact});
-    fields.insert(fields.end(), {&told.dissipated_integrator, &told.residual_work, &told.imbalance});
+Fields figures_of(percale_step_report& reported) {
+    Fields fields{&reported.time,       &reported.dt,       &reported.smallest_dt,
+                  &reported.largest_dt, &reported.residual, &reported.smallest_fraction};
+    fields.insert(fields.end(), {&reported.smallest_distance, &reported.contact_stiffness, &reported.largest_strain,
+                                 &reported.travel, &reported.time_error, &reported.jump});
+    fields.insert(fields.end(),
+                  {&reported.largest_speed, &reported.yielded, &reported.stretch, &reported.cpu_s, &reported.refresh_s});
+    fields.insert(fields.end(), {&reported.evaluate_s, &reported.force_s, &reported.setup_s, &reported.solve_s, &reported.cut_s,
+                                 &reported.measure_s});
+    fields.insert(fields.end(), {&reported.kinetic, &reported.gravity, &reported.elastic, &reported.contact, &reported.work});
+    fields.insert(fields.end(), {&reported.dissipated_material, &reported.dissipated_friction, &reported.dissipated_contact});
+    fields.insert(fields.end(), {&reported.dissipated_integrator, &reported.residual_work, &reported.imbalance});
     return fields;
 }
 
 Counts counts_of(StepReport& report) {
-    DroppedSpans& dropped = report.dropped;
+    DroppedSubsteps& dropped = report.dropped;
     Counts counts{&report.parts, &report.rejected, &report.newton_iterations, &report.linear_iterations};
     counts.insert(counts.end(), {&report.line_search_cuts, &report.halvings, &dropped.not_converged, &dropped.blocked});
     counts.insert(counts.end(), {&dropped.not_finite, &dropped.inexact, &report.sleeping_cloths, &report.contacts});
@@ -52,13 +55,16 @@ Counts counts_of(StepReport& report) {
 }
 
 /// In the order of counts_of.
-Counts counts_of(percale_step_report& told) {
-    Counts counts{&told.parts, &told.rejected, &told.newton_iterations, &told.linear_iterations};
-    counts.insert(counts.end(), {&told.line_search_cuts, &told.halvings, &told.dropped_not_converged, &told.dropped_blocked});
-    counts.insert(counts.end(), {&told.dropped_not_finite, &told.dropped_inexact, &told.sleeping_cloths, &told.contacts});
-    counts.insert(counts.end(), {&told.blocked_cloth, &told.blocked_vertex, &told.blocking_obstacle, &told.pinched});
-    counts.insert(counts.end(), {&told.pinching[0], &told.pinching[1], &told.second_obstacle});
-    counts.insert(counts.end(), {&told.stretched_cloth, &told.stretched_pins});
+Counts counts_of(percale_step_report& reported) {
+    Counts counts{&reported.parts, &reported.rejected, &reported.newton_iterations, &reported.linear_iterations};
+    counts.insert(counts.end(),
+                  {&reported.line_search_cuts, &reported.halvings, &reported.dropped_not_converged, &reported.dropped_blocked});
+    counts.insert(counts.end(),
+                  {&reported.dropped_not_finite, &reported.dropped_inexact, &reported.sleeping_cloths, &reported.contacts});
+    counts.insert(counts.end(),
+                  {&reported.blocked_cloth, &reported.blocked_vertex, &reported.blocking_obstacle, &reported.pinched});
+    counts.insert(counts.end(), {&reported.pinching[0], &reported.pinching[1], &reported.second_obstacle});
+    counts.insert(counts.end(), {&reported.stretched_cloth, &reported.stretched_pins});
     return counts;
 }
 
@@ -74,15 +80,15 @@ TEST_CASE("A step report in C holds every figure of the one in C++, each in its 
     from.linear_solver = LinearSolver::multigrid;
     from.status = StepStatus::work_limit;
 
-    percale_step_report told = c_report(from);
-    CHECK(told.struct_size == sizeof told);
-    CHECK(told.status == PERCALE_STEP_WORK_LIMIT);
-    CHECK(told.linear_solver == std::string("multigrid"));
-    CHECK(told.contact_hash == from.contact_hash);
-    const Fields figures = figures_of(told);
+    percale_step_report reported = c_report(from);
+    CHECK(reported.struct_size == sizeof reported);
+    CHECK(reported.status == PERCALE_STEP_WORK_LIMIT);
+    CHECK(reported.linear_solver == std::string("multigrid"));
+    CHECK(reported.contact_hash == from.contact_hash);
+    const Fields figures = figures_of(reported);
     REQUIRE(figures.size() == figures_of(from).size());
     for (std::size_t i = 0; i < figures.size(); ++i) CHECK(*figures[i] == *figures_of(from)[i]);
-    const Counts counts = counts_of(told);
+    const Counts counts = counts_of(reported);
     REQUIRE(counts.size() == counts_of(from).size());
     for (std::size_t i = 0; i < counts.size(); ++i) CHECK(*counts[i] == *counts_of(from)[i]);
 }
@@ -92,16 +98,16 @@ TEST_CASE("Each flag of a step report is 1 where it is true, and no other one") 
                                    &StepReport::yielded_in_vain, &StepReport::out_of_time}) {
         StepReport from;
         from.*flag = true;
-        const percale_step_report told = c_report(from);
-        CHECK(told.slept + told.stopped + told.blocked_by_pin + told.yielded_in_vain + told.out_of_time == 1);
-        CHECK(told.slept == (flag == &StepReport::slept ? 1 : 0));
-        CHECK(told.out_of_time == (flag == &StepReport::out_of_time ? 1 : 0));
-        CHECK(told.stopped == (flag == &StepReport::stopped ? 1 : 0));
-        CHECK(told.blocked_by_pin == (flag == &StepReport::blocked_by_pin ? 1 : 0));
+        const percale_step_report reported = c_report(from);
+        CHECK(reported.slept + reported.stopped + reported.blocked_by_pin + reported.yielded_in_vain + reported.out_of_time == 1);
+        CHECK(reported.slept == (flag == &StepReport::slept ? 1 : 0));
+        CHECK(reported.out_of_time == (flag == &StepReport::out_of_time ? 1 : 0));
+        CHECK(reported.stopped == (flag == &StepReport::stopped ? 1 : 0));
+        CHECK(reported.blocked_by_pin == (flag == &StepReport::blocked_by_pin ? 1 : 0));
     }
 }
 
-TEST_CASE("The fault of a start and what repaired it are told by number") {
+TEST_CASE("The fault of a start and its resolution are reported by number") {
     StartFault fault;
     fault.obstacle = 3;
     fault.intersecting_pairs = 4;
@@ -110,14 +116,14 @@ TEST_CASE("The fault of a start and what repaired it are told by number") {
     fault.other_cloth_triangle = 7;
     fault.vertices_inside = 8;
     fault.inside_vertex = 9;
-    const percale_start_fault told = c_start_fault(fault);
-    CHECK(told.obstacle == 3);
-    CHECK(told.intersecting_pairs == 4);
-    CHECK(told.cloth_triangle == 5);
-    CHECK(told.obstacle_triangle == 6);
-    CHECK(told.other_cloth_triangle == 7);
-    CHECK(told.vertices_inside == 8);
-    CHECK(told.inside_vertex == 9);
+    const percale_start_fault reported = c_start_fault(fault);
+    CHECK(reported.obstacle == 3);
+    CHECK(reported.intersecting_pairs == 4);
+    CHECK(reported.cloth_triangle == 5);
+    CHECK(reported.obstacle_triangle == 6);
+    CHECK(reported.other_cloth_triangle == 7);
+    CHECK(reported.vertices_inside == 8);
+    CHECK(reported.inside_vertex == 9);
     const percale_start_move move = c_start_move({.cloth = 1, .obstacle = 2, .vertices_moved = 3, .largest_move = 0.5});
     CHECK(move.cloth == 1);
     CHECK(move.obstacle == 2);
@@ -125,7 +131,7 @@ TEST_CASE("The fault of a start and what repaired it are told by number") {
     CHECK(move.largest_move == 0.5);
 }
 
-TEST_CASE("A plan as lines says its scheme, warnings, counts and what is left out") {
+TEST_CASE("A plan as lines states its scheme, warnings, counts and what is left out") {
     ScenePlan plan;
     plan.scheme_word = "tr_bdf2";
     plan.warnings = {"it may ring"};

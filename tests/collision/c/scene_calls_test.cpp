@@ -187,7 +187,7 @@ TEST_CASE("A simulation is refused without a setup, with a wrong one, and for a 
     setup = c_struct(percale_init_setup);
     setup.wind[1] = 1e6;
     percale_simulation* still = nullptr;
-    well(percale_create_simulation(&setup, &still));  // without has_wind it says nothing
+    well(percale_create_simulation(&setup, &still));  // without has_wind it is unused
     percale_destroy_simulation(still);
     setup.has_wind = 1;
     refused(&setup, PERCALE_INVALID_ARGUMENT, "wind");

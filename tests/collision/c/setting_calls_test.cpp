@@ -24,7 +24,7 @@ std::string fabric_text(const percale_fabric* fabric, const char* key) {
 
 }  // namespace
 
-TEST_CASE("Step options are set and told by key through C") {
+TEST_CASE("Step options are set and read by key through C") {
     const CSettings settings = c_settings({});
     CHECK(step_text(settings.get(), "scheme") == "backward_euler");
     CHECK(step_text(settings.get(), "newton_tolerance") == "auto");
@@ -97,35 +97,36 @@ TEST_CASE("Wrong fabrics are refused") {
     percale_destroy_fabric(nullptr);
 }
 
-TEST_CASE("What C tells of options is what the table of options says") {
+TEST_CASE("C describes options as the table of options does") {
     REQUIRE(percale_step_option_count() == percale::step_options().size());
     REQUIRE(percale_fabric_option_count() == percale::fabric_options().size());
-    auto told = c_struct(percale_init_option);
+    auto reported = c_struct(percale_init_option);
     for (std::size_t i = 0; i < percale_fabric_option_count(); ++i) {
         const auto& option = percale::fabric_options()[i];
-        well(percale_describe_fabric_option(i, &told));
-        CHECK(told.key == option.key);
-        CHECK(told.unit == option.unit);
-        CHECK(told.sentence == option.sentence);
-        CHECK(told.lowest == option.lowest);
-        CHECK(told.highest == option.highest);
-        CHECK((percale_fabric_option_word(i, 0) != nullptr) == (told.numbers == 0));
-        CHECK(percale_fabric_option_word(i, told.word_count) == nullptr);
+        well(percale_describe_fabric_option(i, &reported));
+        CHECK(reported.key == option.key);
+        CHECK(reported.unit == option.unit);
+        CHECK(reported.sentence == option.sentence);
+        CHECK(reported.lowest == option.lowest);
+        CHECK(reported.highest == option.highest);
+        CHECK((percale_fabric_option_word(i, 0) != nullptr) == (reported.numbers == 0));
+        CHECK(percale_fabric_option_word(i, reported.word_count) == nullptr);
     }
     for (std::size_t i = 0; i < percale_step_option_count(); ++i) {
-        well(percale_describe_step_option(i, &told));
-        CHECK(told.key == percale::step_options()[i].key);
-        if (told.key == std::string("scheme")) {
-            CHECK(told.word_count == 10);
+        well(percale_describe_step_option(i, &reported));
+        CHECK(reported.key == percale::step_options()[i].key);
+        if (reported.key == std::string("scheme")) {
+            CHECK(reported.word_count == 10);
             CHECK(percale_step_option_word(i, 0) == std::string("forward_euler"));
         }
-        if (told.key == std::string("threads")) CHECK((told.integer == 1 && told.takes_auto == 1 && told.numbers == 1));
+        if (reported.key == std::string("threads"))
+            CHECK((reported.integer == 1 && reported.takes_auto == 1 && reported.numbers == 1));
     }
-    const auto before = told;
-    fails(percale_describe_step_option(999, &told), PERCALE_INVALID_ARGUMENT, "percale_describe_step_option", "999");
-    CHECK(told.key == before.key);
-    told.struct_size = 1;
-    fails(percale_describe_step_option(0, &told), PERCALE_INVALID_ARGUMENT, "percale_describe_step_option", "struct_size");
+    const auto before = reported;
+    fails(percale_describe_step_option(999, &reported), PERCALE_INVALID_ARGUMENT, "percale_describe_step_option", "999");
+    CHECK(reported.key == before.key);
+    reported.struct_size = 1;
+    fails(percale_describe_step_option(0, &reported), PERCALE_INVALID_ARGUMENT, "percale_describe_step_option", "struct_size");
     CHECK(percale_step_option_word(999, 0) == nullptr);
     CHECK(percale_fabric_option_word(0, -1) == nullptr);
 }

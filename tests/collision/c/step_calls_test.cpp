@@ -48,7 +48,7 @@ TEST_CASE("A step reports what it did and where time is") {
     well(percale_step(simulation.get(), nullptr));
 }
 
-TEST_CASE("A step that fails says so, fills its report and leaves the state") {
+TEST_CASE("A step that fails reports it, fills its report and leaves the state") {
     const CSimulation simulation = c_sheet_over_ball("brute_force");
     for (int step = 0; step < 4; ++step) well(percale_step(simulation.get(), nullptr));
     const std::uint64_t before = c_hash(simulation.get());
@@ -89,7 +89,7 @@ TEST_CASE("A report of a wrong size is refused before the step") {
     CHECK(percale_explanation(nullptr) == nullptr);
 }
 
-TEST_CASE("A start that is refused tells its fault and changes nothing") {
+TEST_CASE("A start that is refused reports its fault and changes nothing") {
     const CSimulation simulation = crossing_sheet({{"start", "refuse"}});
     auto fault = c_struct(percale_init_start_fault);
     well(percale_last_start_fault(simulation.get(), &fault));
@@ -108,7 +108,7 @@ TEST_CASE("A start that is refused tells its fault and changes nothing") {
           "struct_size");
 }
 
-TEST_CASE("A start that is repaired tells what was moved") {
+TEST_CASE("A start whose penetration is resolved reports what was moved") {
     const CSimulation simulation = crossing_sheet({});
     std::size_t count = 99;
     well(percale_start_repair(simulation.get(), nullptr, 0, &count));
@@ -125,7 +125,7 @@ TEST_CASE("A start that is repaired tells what was moved") {
     well(percale_step(simulation.get(), nullptr));
 }
 
-TEST_CASE("The plan says scheme and counts, and changes to come change it") {
+TEST_CASE("The plan states scheme and counts, and announced changes change it") {
     const CSimulation simulation = c_sheet_over_ball();
     const std::string plan = plan_of(simulation.get());
     CHECK(plan.find("scheme: backward_euler") != std::string::npos);

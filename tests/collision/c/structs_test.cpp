@@ -79,7 +79,7 @@ TEST_CASE("A pose comes back from C as it was") {
     CHECK(c_interface::pose_of(percale_identity_pose()) == Pose{});
 }
 
-TEST_CASE("A buffer of the caller is asked for its size, filled, or refused with the number it needs") {
+TEST_CASE("A buffer of the caller is measured, filled, or refused with the number it needs") {
     const std::vector<double> values{1.0, 2.0, 3.0};
     std::size_t count = 99;
     c_interface::give_items<double>(values, {nullptr, 0, &count});

@@ -129,48 +129,48 @@ TEST_CASE("Copies and views of a cloth are the numbers of C++") {
     CHECK(copy == std::vector<double>(copy.size(), -7.0));
 }
 
-TEST_CASE("Pinned vertices are told by their numbers, ascending, and how many they are without a buffer") {
+TEST_CASE("Pinned vertices are listed by number, ascending, and counted without a buffer") {
     Twin twin("none", {}, {});
     twin.add_cloth(make_grid(0.6, 0.6, 4, 4), {}, {}, {0.0, 0.0, 0.0});
     for (const int vertex : {12, 3}) well(percale_pin(twin.c(), 0, vertex));
     std::size_t count = 0;
     well(percale_pinned_vertices(twin.c(), 0, nullptr, 0, &count));
     CHECK(count == 2);
-    int told[2] = {-7, -7};
-    well(percale_pinned_vertices(twin.c(), 0, told, 2, &count));
-    CHECK((told[0] == 3 && told[1] == 12));
-    fails(percale_pinned_vertices(twin.c(), 0, told, 1, nullptr), PERCALE_BUFFER_TOO_SMALL, "percale_pinned_vertices", "1");
+    int reported[2] = {-7, -7};
+    well(percale_pinned_vertices(twin.c(), 0, reported, 2, &count));
+    CHECK((reported[0] == 3 && reported[1] == 12));
+    fails(percale_pinned_vertices(twin.c(), 0, reported, 1, nullptr), PERCALE_BUFFER_TOO_SMALL, "percale_pinned_vertices", "1");
 }
 
-TEST_CASE("Normals and places between two steps are the numbers of C++, and neither is told in part") {
+TEST_CASE("Normals and places between two steps are the numbers of C++, and neither is given in part") {
     Twin twin("brute_force", {}, {});
     twin.add_cloth(make_grid(0.6, 0.6, 9, 9), {.thickness = 0.02}, {{"thickness", "0.02"}}, {0.0, 0.33, 0.0});
     twin.add_obstacle(make_sphere(0.3, 2));
     twin.cpp().keep_previous_positions();
     well(percale_keep_previous_positions(twin.c(), 1));
     for (int step = 0; step < 10; ++step) twin.step();
-    std::vector<Vec3> expected(81), told(81, Vec3::Constant(-7.0));
+    std::vector<Vec3> expected(81), reported(81, Vec3::Constant(-7.0));
     std::size_t count = 0;
-    well(percale_normals(twin.c(), 0, told[0].data(), 81, &count));
+    well(percale_normals(twin.c(), 0, reported[0].data(), 81, &count));
     CHECK(count == 81);
-    CHECK(told == twin.cpp().normals({0}));
-    CHECK(told[40].y() > 0.9);
+    CHECK(reported == twin.cpp().normals({0}));
+    CHECK(reported[40].y() > 0.9);
     for (const double fraction : {0.0, 0.3, 1.0}) {
         twin.cpp().interpolate(fraction, {0}, expected);
-        well(percale_interpolate(twin.c(), fraction, 0, told[0].data(), 81, nullptr));
-        CHECK(told == expected);
+        well(percale_interpolate(twin.c(), fraction, 0, reported[0].data(), 81, nullptr));
+        CHECK(reported == expected);
     }
-    CHECK(std::equal(told.begin(), told.end(), twin.cpp().positions({0}).begin()));
+    CHECK(std::equal(reported.begin(), reported.end(), twin.cpp().positions({0}).begin()));
 
-    told.assign(81, Vec3::Constant(-7.0));
-    fails(percale_normals(twin.c(), 0, told[0].data(), 80, nullptr), PERCALE_BUFFER_TOO_SMALL, "percale_normals", "80");
-    fails(percale_interpolate(twin.c(), 0.5, 0, told[0].data(), 80, nullptr), PERCALE_BUFFER_TOO_SMALL, "percale_interpolate",
+    reported.assign(81, Vec3::Constant(-7.0));
+    fails(percale_normals(twin.c(), 0, reported[0].data(), 80, nullptr), PERCALE_BUFFER_TOO_SMALL, "percale_normals", "80");
+    fails(percale_interpolate(twin.c(), 0.5, 0, reported[0].data(), 80, nullptr), PERCALE_BUFFER_TOO_SMALL, "percale_interpolate",
           "80");
-    fails(percale_interpolate(twin.c(), 1.5, 0, told[0].data(), 81, nullptr), PERCALE_INVALID_ARGUMENT, "percale_interpolate",
+    fails(percale_interpolate(twin.c(), 1.5, 0, reported[0].data(), 81, nullptr), PERCALE_INVALID_ARGUMENT, "percale_interpolate",
           "0 ... 1");
-    CHECK(told == std::vector<Vec3>(81, Vec3::Constant(-7.0)));
+    CHECK(reported == std::vector<Vec3>(81, Vec3::Constant(-7.0)));
     well(percale_keep_previous_positions(twin.c(), 0));
-    fails(percale_interpolate(twin.c(), 0.5, 0, told[0].data(), 81, nullptr), PERCALE_INVALID_ARGUMENT, "percale_interpolate",
+    fails(percale_interpolate(twin.c(), 0.5, 0, reported[0].data(), 81, nullptr), PERCALE_INVALID_ARGUMENT, "percale_interpolate",
           "keep_previous_positions");
 }
 
@@ -248,7 +248,7 @@ TEST_CASE("Cloth at rest on a plane presses on it with its weight") {
     CHECK(std::abs(force[2]) < 1e-4 * weight);
 }
 
-TEST_CASE("Gaps of a seam are told in m, one a stitch, and cloths that meet say so") {
+TEST_CASE("Gaps of a seam are given in m, one a stitch, and cloths that meet are reported as such") {
     const CSimulation simulation = c_simulation("brute_force");
     const CFabric fabric = c_fabric({{"self_contact", "true"}});
     for (const double height : {0.0, 0.3}) c_add_cloth(simulation.get(), c_grid(0.5, 4).get(), fabric.get(), height);

@@ -119,7 +119,7 @@ TEST_CASE("the nearest box is that of brute force, and nothing is found beyond t
     }
 }
 
-TEST_CASE("the nearest pair is that of brute force, cut at the limit") {
+TEST_CASE("the nearest pair is that of brute force, up to the limit") {
     const double extent = GENERATE(0.001, 0.02);
     Boxes source(13);
     const std::vector<Box> a = source.make(300, extent), b = source.make(200, extent);

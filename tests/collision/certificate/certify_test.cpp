@@ -111,7 +111,7 @@ TEST_CASE("a sheet through a ball: pairs, depth and count of inside vertices are
     CHECK(found.deepest_penetration == Approx(0.3 - from_centre).margin(0.014));
 }
 
-TEST_CASE("a sheet above a ball is clean and as far from it as brute force says, however the limit lies") {
+TEST_CASE("a sheet above a ball is clean and as far from it as by brute force, for any limit") {
     const TriangleMesh ball = make_sphere(0.3, 2);
     const TriangleMesh sheet = moved(crumpled(1.0, 13, 0.01, 5), {0, 0.33, 0});
     const BruteForce expected = all_pairs(sheet, ball);
@@ -224,7 +224,7 @@ TEST_CASE("triangles without area in the obstacle change nothing that is found")
     CHECK(found.deepest_penetration == plain.deepest_penetration);
 }
 
-TEST_CASE("what is wrong with the input is said by name") {
+TEST_CASE("errors of the input are reported by name") {
     const TriangleMesh ball = make_sphere(0.3, 1), sheet = make_grid(1, 1, 3, 3);
     TriangleMesh broken = ball;
     broken.vertices[7].y() = std::numeric_limits<double>::quiet_NaN();
@@ -281,7 +281,7 @@ TEST_CASE("crossings of a crumpled sheet are those of all pairs, neighbours at o
     CHECK(same(certify_cloth(sheet).crossing, expected));
 }
 
-TEST_CASE("a search for crossings finds all of them, or as many as were asked for and says so") {
+TEST_CASE("a search for crossings finds all of them, or as many as were requested, and reports which") {
     const TriangleMesh sheet = crumpled(1.0, 15, 0.08, 9);
     const std::vector<IntersectingPair> all = certify_cloth(sheet).crossing;
     const CrossingSearch whole = find_crossings(sheet, 100000, 1000000);
@@ -353,7 +353,7 @@ TEST_CASE("Distances of points to a surface are the smallest to its triangles, b
     CHECK_THROWS_AS(surface_distances(ball, std::vector<Vec3>{Vec3(0, infinity, 0)}), SceneError);
 }
 
-TEST_CASE("cloth that only touches itself away from its neighbours is told apart from cloth that crosses itself") {
+TEST_CASE("cloth that only touches itself away from its neighbours is distinguished from cloth that crosses itself") {
     TriangleMesh mesh = make_grid(1, 1, 3, 3);
     const TriangleMesh upper = moved(make_grid(1, 1, 3, 3), {0.01, 0.1, 0.02});
     for (const Triangle& t : upper.triangles) mesh.triangles.push_back({t[0] + 9, t[1] + 9, t[2] + 9});

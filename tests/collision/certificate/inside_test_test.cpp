@@ -155,7 +155,7 @@ TEST_CASE("the winding number is the sum of solid angles on sphere, torus, overl
     check_against_solid_angles(Solid(inside_out(make_sphere(1.0, 2))), 1.2);
 }
 
-TEST_CASE("inside, outside and on the surface are told apart at corners, edges, faces and their extensions") {
+TEST_CASE("inside, outside and on the surface are distinguished at corners, edges, faces and their extensions") {
     const Solid box(make_box({2, 2, 2}));
     for (int code = 0; code < 5 * 5 * 5; ++code) {
         const Vec3 p{code % 5 - 2.0, code / 5 % 5 - 2.0, code / 25 - 2.0};

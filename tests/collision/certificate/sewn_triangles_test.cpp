@@ -41,7 +41,7 @@ TEST_CASE("triangles are sewn together where both have a vertex of one stitch") 
     CHECK_FALSE(point.together(1, 2));
 }
 
-TEST_CASE("crossings of triangles that a stitch joins are told apart from those of others") {
+TEST_CASE("crossings of triangles that a stitch joins are distinguished from those of others") {
     TriangleMesh mesh = joined(make_grid(1, 1, 3, 3), placed(make_grid(1, 1, 3, 3), {.translation = {0.07, 0.1, 0.03}}));
     mesh.vertices[9 + 4].y() = -0.1;
     const ClothCertificate loose = certify_cloth(mesh);

@@ -17,7 +17,7 @@
 #include "tests/support/laws.h"
 #include "tests/support/random.h"
 
-// FCL's narrow phase beside ours: what it says of pairs of triangles and of moves, where it can be believed.
+// FCL's narrow phase beside ours: its results for pairs of triangles and for moves, where they are reliable.
 
 namespace percale::test::fcl_oracles_test {
 namespace {
@@ -98,7 +98,7 @@ MovingFour random_move(Random& random, double reach) {
     return four;
 }
 
-/// What FCL takes for the time of the first contact; 2: none.
+/// FCL's time of the first contact; 2: none.
 double fcl_time(const MovingFour& four, PairShape shape) {
     double time = 2.0;
     Vec3 point;
@@ -117,7 +117,7 @@ double distance_at(const MovingFour& four, PairShape shape, double time) {
                                                         : closest_on_edges(x[0], x[1], x[2], x[3]).distance_squared);
 }
 
-/// Whether they meet: the least distance by samples, and thirds of the interval about the least of these.
+/// Whether they meet: the smallest distance by samples, and by thirds of the interval about the smallest of these.
 bool meets(const MovingFour& four, PairShape shape) {
     constexpr int samples = 1000;
     double best = 0.0, least = distance_at(four, shape, 0.0);
@@ -138,7 +138,7 @@ bool meets(const MovingFour& four, PairShape shape) {
 }
 
 struct Moves {
-    int told = 0, right = 0, late = 0, missed_by_fcl = 0, missed = 0;
+    int reported = 0, right = 0, late = 0, missed_by_fcl = 0, missed = 0;
 };
 
 Moves compare_moves(PairShape shape, bool flat) {
@@ -148,13 +148,13 @@ Moves compare_moves(PairShape shape, bool flat) {
         MovingFour four = random_move(random, n % 2 == 0 ? 0.5 : 4.0);
         for (int k = 0; flat && k < 4; ++k) four.from[k].z() = four.to[k].z() = 0.0;
         if (distance_at(four, shape, 0.0) < 1e-6) continue;
-        const double ours = safe_time(four, shape, 0.0, 1.0), fcl = fcl_time(four, shape);
-        moves.told += fcl <= 1.0;
-        // A few of its contacts are none: the four are apart then.
+        const double ours = time_of_impact_lower_bound(four, shape, 0.0, 1.0), fcl = fcl_time(four, shape);
+        moves.reported += fcl <= 1.0;
+        // A few of its contacts are false: the four are apart then.
         const bool right = fcl <= 1.0 && distance_at(four, shape, fcl) < 1e-6;
         moves.right += right;
         moves.late += right && ours > fcl;
-        if (right || (n % 10 > 0 && ours == 1.0)) continue;  // looking at all that are not cut would take a minute
+        if (right || (n % 10 > 0 && ours == 1.0)) continue;  // testing all that are not clamped would take a minute
         const bool meet = meets(four, shape);
         moves.missed_by_fcl += meet && fcl > 1.0;
         moves.missed += meet && ours == 1.0;
@@ -175,7 +175,7 @@ TEST_CASE("Distances of triangles are FCL's, and never longer", "[law]") {
     }
 }
 
-TEST_CASE("Moves are cut before FCL's first contact, and before those that FCL does not see", "[law]") {
+TEST_CASE("Moves are clamped before FCL's first contact, and before those that FCL does not detect", "[law]") {
     for (const PairShape shape : {PairShape::point_triangle, PairShape::edge_edge}) {
         for (const bool flat : {false, true}) {
             const std::string name = std::string(shape == PairShape::point_triangle ? "a point and a triangle" : "two edges") +
@@ -184,10 +184,10 @@ TEST_CASE("Moves are cut before FCL's first contact, and before those that FCL d
             std::printf(
                 "FCL's first contact of %s: told in %d of %d moves, right in %d; ours later in %d of these; %d contacts that "
                 "FCL lets pass, %d that we do\n",
-                name.c_str(), moves.told, count, moves.right, moves.late, moves.missed_by_fcl, moves.missed);
+                name.c_str(), moves.reported, count, moves.right, moves.late, moves.missed_by_fcl, moves.missed);
             CHECK(moves.right + moves.missed_by_fcl > 1000);
             CHECK((moves.right == 0) == flat);  // why it is not used
-            CHECK(moves.told - moves.right <= moves.told / 1000);
+            CHECK(moves.reported - moves.right <= moves.reported / 1000);
             check_law("moves of " + name + " cut later than FCL's first contact", moves.late, 0);
             check_law("moves of " + name + " that meet and are not cut", moves.missed, 0);
         }

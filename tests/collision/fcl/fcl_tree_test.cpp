@@ -5,9 +5,9 @@
 
 namespace percale::test::fcl_tree_test {
 
-TEST_CASE("fcl: a tree finds every triangle whose box overlaps the asked one") { check_tree_laws(make_fcl_tree); }
+TEST_CASE("fcl: a tree finds every triangle whose box overlaps the queried one") { check_tree_laws(make_fcl_tree); }
 
-TEST_CASE("fcl: triangles that no split tells apart are found like all others") { check_degenerate_trees(make_fcl_tree); }
+TEST_CASE("fcl: triangles that no split separates are found like all others") { check_degenerate_trees(make_fcl_tree); }
 
 TEST_CASE("fcl: a tree finds no triangle whose box lies apart") {
     const TriangleMesh mesh = soup(1000, 12);

@@ -17,12 +17,12 @@ double reach(std::span<const Vec3> points, const Vec3& way) {
     return most;
 }
 
-/// Of the first set beyond the second along a direction.
+/// How far the first set has to go to be beyond the second along a direction.
 double way_out(std::span<const Vec3> first, std::span<const Vec3> second, const Vec3& way) {
     return reach(second, way) + reach(first, -way);
 }
 
-/// Depth of a triangle in a convex mesh: the shortest way out is square to a face of one or to an edge of each.
+/// Depth of a triangle in a convex mesh: the shortest exit is perpendicular to a face of one or to an edge of each.
 double true_depth(std::span<const Vec3> triangle, const TriangleMesh& hull) {
     double least = std::numeric_limits<double>::infinity();
     const auto try_both = [&](const Vec3& way) {

@@ -55,7 +55,7 @@ MovingFour meeting(PairShape shape, Family family, double hit, Random& random) {
         if (in_plane) four.from[i] = flat(four.from[i]), four.to[i] = flat(four.to[i]);
     }
     if (family == Family::parallel) {
-        // An edge parallel to the other one (or to the triangle's first), all the way.
+        // An edge parallel to the other one (or to the triangle's first), throughout the move.
         const Vec3 along = random.number(0.5, 2.0) * (four.from[3] - four.from[2]), way = four.to[2] - four.from[2];
         four.to[3] = four.from[3] + way;
         four.from[1] = four.from[0] + along;
@@ -105,12 +105,12 @@ struct Outcome {
     int moves = 0, cut = 0, below = 0, early = 0, loose = 0;
 };
 
-/// One move, sampled: nothing below the floor before the returned time, and not cut earlier than it says.
+/// Samples one move: no distance is below the floor before the returned time, and the clamp is not earlier than promised.
 void check_move(const MovingFour& four, PairShape shape, double share, Outcome& outcome) {
     const double start = distance(four, shape, 0.0);
     if (start < 1e-12) return;
     const double floor = share * start;
-    const double safe = safe_time(four, shape, floor, 1.0);
+    const double safe = time_of_impact_lower_bound(four, shape, floor, 1.0);
     ++outcome.moves;
     constexpr int samples = 64;
     for (int k = 0; k <= samples; ++k) {
@@ -126,7 +126,7 @@ void check_move(const MovingFour& four, PairShape shape, double share, Outcome& 
 }  // namespace
 
 TEST_CASE(
-    "before the returned time no sample of thousands of moves is below the floor, after a cut a tenth of the clearance is left") {
+    "before the returned time no sample of thousands of moves is below the floor, and a clamp leaves a tenth of the clearance") {
     const auto [family, name] = GENERATE(table<Family, std::string>({{Family::generic, "generic"},
                                                                      {Family::coplanar, "coplanar"},
                                                                      {Family::parallel, "parallel"},
@@ -145,11 +145,12 @@ TEST_CASE(
     CHECK(outcome.cut > 300);
     CHECK(outcome.below == 0);
     CHECK(outcome.loose == 0);
-    // A clearance that is tiny against the way takes more advances than are allowed: then the cut comes sooner, never later.
+    // A clearance that is tiny against the displacement takes more advances than are allowed: the clamp is then earlier, never
+    // later.
     CHECK(outcome.early < outcome.cut / 20 + 5);
 }
 
-TEST_CASE("a move made to hit is cut before the hit, in every family") {
+TEST_CASE("a move made to hit is clamped before the hit, in every family") {
     const Family family = GENERATE(Family::generic, Family::coplanar, Family::parallel, Family::on_edge);
     const PairShape shape = GENERATE(PairShape::point_triangle, PairShape::edge_edge);
     Random random(60 + static_cast<int>(family));
@@ -159,7 +160,7 @@ TEST_CASE("a move made to hit is cut before the hit, in every family") {
         const MovingFour four = meeting(shape, family, hit, random);
         const double start = distance(four, shape, 0.0);
         if (start < 1e-9) continue;
-        const double safe = safe_time(four, shape, 0.2 * start, 1.0);
+        const double safe = time_of_impact_lower_bound(four, shape, 0.2 * start, 1.0);
         missed += safe == 1.0 ? 1 : 0;
         late += safe >= hit ? 1 : 0;
     }
@@ -168,7 +169,7 @@ TEST_CASE("a move made to hit is cut before the hit, in every family") {
 }
 
 TEST_CASE(
-    "little lies between the cut and the first dip below the floor: most of the way there is allowed, and some of it always") {
+    "the clamp comes shortly before the distance falls below the floor: most of the move until then is allowed, never nothing") {
     const PairShape shape = GENERATE(PairShape::point_triangle, PairShape::edge_edge);
     Random random(71);
     double ratio = 0.0, least = 1.0;
@@ -179,7 +180,7 @@ TEST_CASE(
         if (start < 1e-2) continue;
         double dip = 0.0;
         while (distance(four, shape, dip) > floor) dip += 1.0 / 1024;
-        const double share = safe_time(four, shape, floor, 1.0) / dip;
+        const double share = time_of_impact_lower_bound(four, shape, floor, 1.0) / dip;
         ratio += share;
         least = std::min(least, share);
         ++count;
@@ -189,18 +190,18 @@ TEST_CASE(
     CHECK(least > 0.15);
 }
 
-TEST_CASE("a point falling straight onto a triangle is let down to a tenth of its clearance") {
+TEST_CASE("a point falling straight onto a triangle falls to a tenth of its clearance") {
     const double height = GENERATE(1e-8, 1e-3, 1.0, 100.0);
     MovingFour four{.from = {Vec3(0.2, 0.2, height), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, .to = {}};
     four.to = four.from;
     four.to[0].z() = -height;
     const double floor = 0.2 * height, hit = 0.4;
-    const double safe = safe_time(four, PairShape::point_triangle, floor, 1.0);
+    const double safe = time_of_impact_lower_bound(four, PairShape::point_triangle, floor, 1.0);
     CHECK(safe < hit);
     CHECK(safe >= 0.9 * hit * (1.0 - 1e-6));
 }
 
-TEST_CASE("what never comes near keeps its whole time, whatever its common motion") {
+TEST_CASE("features that never come near keep their whole time, whatever their common motion") {
     Random random(80);
     for (int i = 0; i < 500; ++i) {
         const PairShape shape = i % 2 == 0 ? PairShape::point_triangle : PairShape::edge_edge;
@@ -209,14 +210,14 @@ TEST_CASE("what never comes near keeps its whole time, whatever its common motio
         for (int k = 0; k < 4; ++k) four.from[k] = random.point(1.0), four.to[k] = four.from[k] + common;
         const double start = distance(four, shape, 0.0), latest = random.number(0.01, 1.0);
         if (start < 1e-6) continue;
-        CHECK(safe_time(four, shape, 0.5 * start, latest) == latest);
+        CHECK(time_of_impact_lower_bound(four, shape, 0.5 * start, latest) == latest);
         four.to = four.from;
-        CHECK(safe_time(four, shape, 0.999 * start, latest) == latest);
+        CHECK(time_of_impact_lower_bound(four, shape, 0.999 * start, latest) == latest);
         // Moving apart along the line between the closest features' centres.
         const Vec3 away = (four.from[0] - (four.from[1] + four.from[2] + four.from[3]) / 3.0).normalized();
         if (shape == PairShape::point_triangle) {
             four.to[0] += 0.4 * start * away;
-            CHECK(safe_time(four, shape, 0.1 * start, latest) == latest);
+            CHECK(time_of_impact_lower_bound(four, shape, 0.1 * start, latest) == latest);
         }
     }
 }
@@ -235,7 +236,7 @@ TEST_CASE("features pressed together call after call stop before rounding decide
         for (int call = 0; call < 60; ++call) {
             four.to = four.from;
             for (int k = 0; k < movers; ++k) four.to[k] += push;
-            safe = safe_time(four, shape, floor_of_cut(four, apart, 1e-30), 1.0);
+            safe = time_of_impact_lower_bound(four, shape, clamped_distance(four, apart, 1e-30), 1.0);
             four.from = at(four, safe);
             apart = distance(four, shape, 0.0);
         }
@@ -248,11 +249,11 @@ TEST_CASE("features pressed together call after call stop before rounding decide
 TEST_CASE("a start at or below the floor allows no time at all, an earlier limit is kept") {
     const MovingFour four{.from = {Vec3(0.2, 0.2, 1.0), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)},
                           .to = {Vec3(0.2, 0.2, -1.0), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}};
-    CHECK(safe_time(four, PairShape::point_triangle, 1.0, 1.0) == 0.0);
-    CHECK(safe_time(four, PairShape::point_triangle, 2.0, 1.0) == 0.0);
-    CHECK(safe_time(four, PairShape::point_triangle, 0.2, 0.25) == 0.25);
-    CHECK(safe_time(four, PairShape::point_triangle, 0.2, 0.0) == 0.0);
-    CHECK(safe_time(four, PairShape::point_triangle, 0.2, 0.39) <= 0.39);
+    CHECK(time_of_impact_lower_bound(four, PairShape::point_triangle, 1.0, 1.0) == 0.0);
+    CHECK(time_of_impact_lower_bound(four, PairShape::point_triangle, 2.0, 1.0) == 0.0);
+    CHECK(time_of_impact_lower_bound(four, PairShape::point_triangle, 0.2, 0.25) == 0.25);
+    CHECK(time_of_impact_lower_bound(four, PairShape::point_triangle, 0.2, 0.0) == 0.0);
+    CHECK(time_of_impact_lower_bound(four, PairShape::point_triangle, 0.2, 0.39) <= 0.39);
 }
 
 }  // namespace percale::test::time_of_impact_test

@@ -19,7 +19,7 @@ double error(const PointCase& x) {
     return std::abs(std::sqrt(closest(x).distance_squared) - true_point_triangle(x.p, x.a, x.b, x.c));
 }
 
-/// Weights, region and point say the same thing.
+/// Whether weights, region and point agree.
 bool consistent(const PointCase& x, const PointTriangle& found) {
     const auto& w = found.weight;
     const int next = (found.corner + 1) % 3, last = (found.corner + 2) % 3;
@@ -57,7 +57,7 @@ EdgeCase crossing_edges(double angle, double gap, double half_length, Random& ra
 
 }  // namespace
 
-TEST_CASE("the closest point of a random triangle is as far as trying every case says") {
+TEST_CASE("the closest point of a random triangle is as far as by trying every case") {
     Random random(1);
     double worst = 0.0;
     int faces = 0, edges = 0, vertices = 0, inconsistent = 0;
@@ -182,7 +182,7 @@ TEST_CASE("a triangle two corners of which are one is a segment, straight above 
     CHECK(worst < 1e-9);
 }
 
-TEST_CASE("closest points of random segments are as far as trying every case says") {
+TEST_CASE("closest points of random segments are as far as by trying every case") {
     Random random(6);
     double worst = 0.0;
     int inside = 0, ends = 0, inconsistent = 0;

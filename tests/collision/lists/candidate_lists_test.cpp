@@ -88,8 +88,7 @@ int missing(const World& world, std::span<const Vec3> x, double fraction, const 
     return count;
 }
 
-/// Covers a whole step and gives the number of lists built for it: those get their boxes anew, the others keep a mark behind
-/// theirs.
+/// Covers a whole step and returns the number of lists built for it: those get new boxes, the others keep a mark behind theirs.
 long lists_built(CandidateLists& lists, const World& world, std::span<const Vec3> from, std::span<const Vec3> to) {
     for (ClusterList& list : lists.lists()) list.boxes.emplace_back();
     lists.cover({.from = from, .to = to, .fraction = {0.0, 1.0}}, world.obstacles);
@@ -103,7 +102,7 @@ long lists_built(CandidateLists& lists, const World& world, std::span<const Vec3
     return built;
 }
 
-/// How far any pair's bound is above its true distance (<= 0 if all bounds hold).
+/// Largest excess of a pair's bound over its true distance, m (<= 0 if all bounds are valid).
 double excess(const World& world, CandidateLists& lists, std::span<const Vec3> x, double fraction) {
     double most = -1e300;
     for (const ClusterList& list : lists.lists()) {
@@ -159,7 +158,7 @@ TEST_CASE("every pair that comes closer than the thickness while the cloth is in
     CHECK(lacking == 0);
 }
 
-TEST_CASE("the lists stay complete when only the clusters that left their boxes are made anew") {
+TEST_CASE("the lists stay complete when only those of clusters that left their boxes are rebuilt") {
     Random random(220);
     int near = 0, lacking = 0;
     long built = 0;
@@ -196,16 +195,16 @@ TEST_CASE("reach less travel is never above the true distance on random walks, m
     CHECK(worst > -1e-3);  // a pair measured just now has no slack
 }
 
-TEST_CASE("bounds of a listed pack only rise, and a held one wakes as soon as it comes within the thickness") {
+TEST_CASE("bounds of a listed pack only rise, and a persistent one wakes as soon as it comes within the thickness") {
     ListedPacks packs;
     packs.add(0, 7, 0.02, 0.005);
     CHECK(packs.reach[0] == Approx(0.02));
     CHECK(packs.wake[0] == Approx(0.015));
-    packs.raise(0, 0.01, 0.03, 0.005, 0.004);  // no contact before a way of 0.03 m, though 0.01 m near
+    packs.raise(0, 0.01, 0.03, 0.005, 0.004);  // no contact before a displacement of 0.03 m, though 0.01 m near
     CHECK(packs.reach[0] == Approx(0.02));
     CHECK(packs.wake[0] == Approx(0.034));
-    packs.activate(0, 3, 0.005);
-    CHECK(packs.at[0].standing == 8U);
+    packs.make_persistent(0, 3, 0.005);
+    CHECK(packs.at[0].persistent == 8U);
     CHECK(packs.wake[0] == Approx(0.015));
     packs.raise(0, 0.03, 0.5, 0.005, 0.004);
     CHECK(packs.reach[0] == Approx(0.034));
@@ -214,7 +213,7 @@ TEST_CASE("bounds of a listed pack only rise, and a held one wakes as soon as it
     CHECK(static_cast<double>(packs.wake[0]) <= 0.029);
 }
 
-TEST_CASE("cloth that stays in its boxes and obstacles that rest cost no list, any way out of them does") {
+TEST_CASE("cloth that stays in its boxes and obstacles that rest cost no list, any move out of them does") {
     Random random(260);
     World world(0, random);
     CandidateLists lists = world.lists();
@@ -237,7 +236,7 @@ TEST_CASE("cloth that stays in its boxes and obstacles that rest cost no list, a
     CHECK(cover(x, x) == 0);
 }
 
-TEST_CASE("a pair is listed once, and obstacles out of reach are not listed at all") {
+TEST_CASE("a pair is listed once, and obstacles that are far away are not listed at all") {
     Random random(270);
     World world(1, random);
     CandidateLists lists = world.lists();
@@ -253,7 +252,7 @@ TEST_CASE("a pair is listed once, and obstacles out of reach are not listed at a
     CHECK(keys(lists, world).empty());
 }
 
-TEST_CASE("a move too long for its lists to fit is covered in part, and the cut stays within that part") {
+TEST_CASE("a move too long for its lists to fit is covered in part, and the clamp stays within that part") {
     const TriangleMesh sheet = make_grid(1.0, 1.0, 17, 17);
     std::vector<Vec3> from, to;
     for (const Vec3& p : sheet.vertices) {
@@ -274,7 +273,7 @@ TEST_CASE("a move too long for its lists to fit is covered in part, and the cut 
     const auto detector = make_brute_force_detector();
     detector->set_cloth(sheet.triangles, thick);
     detector->add_obstacle(make_sphere(0.4, 5), {}, 0.0);
-    CHECK(detector->largest_safe_fraction(from, to, {0.0, 1.0}) <= share);
+    CHECK(detector->collision_free_step_size(from, to, {0.0, 1.0}) <= share);
 }
 
 TEST_CASE("a cluster's thickness is the largest of its vertices") {

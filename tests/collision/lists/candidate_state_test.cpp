@@ -9,28 +9,28 @@
 namespace percale::test::candidate_state_test {
 namespace {
 
-/// What a detector answers in a step that starts at `from` and would lead to `to`; in the end the cloth is where that led.
+/// The results of a detector in a step that starts at `from` and would lead to `to`; at the end the cloth is where that led.
 struct Answers {
-    std::vector<ContactRows> rows;
+    std::vector<ContactConstraints> constraints;
     double safe = 0.0, smallest = 0.0;
     std::vector<Vec3> end;
 
-    Answers(ContactDetector& detector, const std::vector<Vec3>& from, const std::vector<Vec3>& to) : rows(3) {
-        detector.refresh(from, to);
-        detector.evaluate(from, 0.0, rows[0]);
-        safe = detector.largest_safe_fraction(from, to, {0.0, 1.0});
+    Answers(ContactDetector& detector, const std::vector<Vec3>& from, const std::vector<Vec3>& to) : constraints(3) {
+        detector.update_candidates(from, to);
+        detector.find_contacts(from, 0.0, constraints[0]);
+        safe = detector.collision_free_step_size(from, to, {0.0, 1.0});
         end = between(from, to, safe);
-        detector.evaluate(end, safe, rows[1]);
-        detector.evaluate(between(from, to, 0.5 * safe), 0.5 * safe, rows[2]);
+        detector.find_contacts(end, safe, constraints[1]);
+        detector.find_contacts(between(from, to, 0.5 * safe), 0.5 * safe, constraints[2]);
         smallest = detector.smallest_distance();
     }
     bool operator==(const Answers& other) const {
-        return safe == other.safe && smallest == other.smallest && same_rows(rows[0], other.rows[0]) &&
-               same_rows(rows[1], other.rows[1]) && same_rows(rows[2], other.rows[2]);
+        return safe == other.safe && smallest == other.smallest && same_constraints(constraints[0], other.constraints[0]) &&
+               same_constraints(constraints[1], other.constraints[1]) && same_constraints(constraints[2], other.constraints[2]);
     }
 };
 
-/// Cloth that hangs about above an obstacle, rests on it now and then, and is hit by it.
+/// Cloth that moves above an obstacle, rests on it now and then, and is hit by it.
 struct Walk {
     Steps steps;
     Random random;
@@ -50,11 +50,11 @@ struct Walk {
             o.start = o.end;
             if (step % 4 == 3) o.end.translation += random.point(0.2 * sheet_thickness);
         }
-        steps.tell_poses();
+        steps.report_poses();
     }
 };
 
-/// What a detector that reads a state has until then.
+/// What a detector holds before it reads a state.
 enum class Before { nothing, the_same_clusters, other_clusters };
 
 std::unique_ptr<ContactDetector> copy_of(const Walk& walk, Scene scene, const Backend& backend, const Saved& saved,
@@ -76,7 +76,7 @@ void follow(const Walk& walk, ContactDetector& copy) {
     }
 }
 
-/// Copies made on the way, on trees of the backend, go along; returns how many contacts there were.
+/// Copies made during the walk, on trees of the backend, follow it; returns the number of contacts.
 int check_copies(Scene scene, const Backend& backend) {
     Walk walk(scene, backends()[0], 3);
     std::vector<std::unique_ptr<ContactDetector>> copies;
@@ -95,7 +95,7 @@ int check_copies(Scene scene, const Backend& backend) {
             CHECK(Answers(*copy, walk.at, to) == answers);
             CHECK(saved_by(*copy) == saved_by(*walk.steps.detector));
         }
-        contacts += static_cast<int>(answers.rows[1].size());
+        contacts += static_cast<int>(answers.constraints[1].size());
         walk.at = answers.end;
     }
     return contacts;

@@ -16,7 +16,7 @@ namespace {
 
 Obstacle make(const TriangleMesh& mesh, const Pose& pose = {}) { return {mesh, pose, 0.5, make_brute_force_tree}; }
 
-/// An obstacle on its way, and its kinds.
+/// A moving obstacle of one of several kinds.
 Obstacle moving_obstacle(int number, Random& random) {
     const TriangleMesh meshes[] = {make_sphere(0.5, 1), make_box({0.8, 0.6, 0.7}), spiky_ball(0.5, 1, 0.3, 9), make_plane(0.6),
                                    moved(l_solid(), {-1, -1, -0.5})};
@@ -67,7 +67,7 @@ int reports(const Obstacle& obstacle, const Vec3& x, double* distance = nullptr)
 
 }  // namespace
 
-TEST_CASE("what edges push upon goes evenly from end to end as they turn through the parallel") {
+TEST_CASE("the point of action of edges moves smoothly from end to end as they turn through the parallel") {
     constexpr double thickness = 0.005, length = 0.02;
     const Obstacle box = make(make_box({1.0, 1.0, 1.0}));
     const auto& edges = box.surface().edges;
@@ -85,7 +85,7 @@ TEST_CASE("what edges push upon goes evenly from end to end as they turn through
             half(0.5 * length * std::cos(angle), 0.0, 0.5 * length * std::sin(angle));
         const std::vector<Vec3> cloth{middle - half, middle + half};
         const PairContact contact = pair_contact(pair, cloth, box, 0.0);
-        const double share = row_share(contact, thickness);
+        const double share = edge_mollifier(contact, thickness);
         if (i == 0) CHECK(share == 0.0);
         whole += share == 1.0 ? 1 : 0;
         jump = std::max(jump, std::abs(share * (contact.weight[1] - 0.5) - before));
@@ -96,12 +96,12 @@ TEST_CASE("what edges push upon goes evenly from end to end as they turn through
     CHECK(closest_jump > 0.3);
     CHECK(jump < 1e-3);
     CHECK(whole > 30000);
-    // Where the share begins to shrink, the ends are a thousandth of the thickness farther off than the middle.
+    // Where the mollifier begins to shrink, the ends are a thousandth of the thickness farther away than the middle.
     const double sine = std::sqrt(8e-3) * thickness / length;
     const double rise = std::hypot(thickness, 0.5 * length * sine) - thickness;
     CHECK(rise == Approx(1e-3 * thickness).epsilon(1e-3));
-    CHECK(row_share({.crossing = 0.999 * length * sine}, thickness) < 1.0);
-    CHECK(row_share({.crossing = 1.001 * length * sine}, thickness) == 1.0);
+    CHECK(edge_mollifier({.crossing = 0.999 * length * sine}, thickness) < 1.0);
+    CHECK(edge_mollifier({.crossing = 1.001 * length * sine}, thickness) == 1.0);
 }
 
 TEST_CASE("every contact obeys direction . (sum of weighted cloth vertices - obstacle point) = distance, at any fraction") {
@@ -245,7 +245,7 @@ TEST_CASE("an edge across a ridge is one contact of these two edges, a spike und
             pair_contact({.kind = PairKind::edge_edge, .cloth = {0, 1, -1}, .feature = e}, across, box, 0.0);
         edges += contact.local_minimum ? 1 : 0;
     }
-    CHECK(edges == 0);  // it cuts the box: nothing is faced from outside
+    CHECK(edges == 0);  // it crosses the box: no feature is faced from outside
     const std::vector<Vec3> above{{0.3, 0.8, 0.1}, {0.8, 0.3, -0.1}};
     for (int e = 0; e < int(box.surface().edges.size()); ++e) {
         const PairContact contact =

@@ -8,33 +8,35 @@
 namespace percale::test::feature_minima_test {
 namespace {
 
-/// Rows told apart by `feature`, which is their thickness and distance, too, with directions by their angle from y.
+/// Constraints distinguished by `feature`, which is also their thickness and distance; their directions are given by the angle
+/// from y.
 struct Written {
-    ContactRows rows;
+    ContactConstraints constraints;
     FeatureMinima minima;
 
-    Written() { minima.begin(rows); }
+    Written() { minima.begin(constraints); }
     void add(int feature, double degrees, bool minimum, int second_vertex = -1) {
         add_at(Vec3(feature, 0.0, 0.0), feature, degrees, minimum, second_vertex);
     }
     void add_at(const Vec3& place, int feature, double degrees, bool minimum, int second_vertex = -1) {
         const double angle = degrees * std::numbers::pi / 180.0;
-        rows.vertex.push_back({7, second_vertex, -1, -1});
-        rows.weight.push_back({1.0, 0.0, 0.0, 0.0});
-        rows.direction.emplace_back(std::sin(angle), std::cos(angle), 0.0);
-        rows.obstacle_point.push_back(place);
-        rows.obstacle_displacement.push_back(Vec3::Zero());
-        for (auto* numbers : {&rows.distance, &rows.thickness, &rows.friction, &rows.share}) numbers->push_back(feature);
-        rows.obstacle.push_back(0);
-        rows.feature.push_back(feature);
+        constraints.vertex.push_back({7, second_vertex, -1, -1});
+        constraints.weight.push_back({1.0, 0.0, 0.0, 0.0});
+        constraints.direction.emplace_back(std::sin(angle), std::cos(angle), 0.0);
+        constraints.obstacle_point.push_back(place);
+        constraints.obstacle_displacement.push_back(Vec3::Zero());
+        for (auto* numbers : {&constraints.distance, &constraints.thickness, &constraints.friction, &constraints.mollifier})
+            numbers->push_back(feature);
+        constraints.obstacle.push_back(0);
+        constraints.feature.push_back(feature);
         minima.add(minimum);
     }
-    void end_feature() { minima.next_feature(rows); }
+    void end_feature() { minima.next_feature(constraints); }
 };
 
 }  // namespace
 
-TEST_CASE("a row gives way to a minimum in nearly its direction, and to nothing else") {
+TEST_CASE("a constraint gives way to a minimum in nearly its direction, and to nothing else") {
     Written written;
     written.add(1, 0.0, false);
     written.add(2, 10.0, true);
@@ -42,21 +44,21 @@ TEST_CASE("a row gives way to a minimum in nearly its direction, and to nothing 
     written.add(4, -40.0, false);  // 50 degrees from the nearest of them
     written.add(5, 35.0, false);
     written.end_feature();
-    CHECK(written.rows.feature == std::vector<int>{2, 3, 4});
-    CHECK(written.rows.distance == std::vector<double>{2, 3, 4});
-    CHECK(written.rows.size() == 3);
-    CHECK(written.rows.direction.size() == 3);
+    CHECK(written.constraints.feature == std::vector<int>{2, 3, 4});
+    CHECK(written.constraints.distance == std::vector<double>{2, 3, 4});
+    CHECK(written.constraints.size() == 3);
+    CHECK(written.constraints.direction.size() == 3);
 }
 
-TEST_CASE("rows that are no minima any more stay where none has taken their place") {
+TEST_CASE("constraints that are no longer minima stay where none has taken their place") {
     Written written;
     written.add(1, 0.0, false);
     written.add(2, 1.0, false);
     written.end_feature();
-    CHECK(written.rows.feature == std::vector<int>{1, 2});
+    CHECK(written.constraints.feature == std::vector<int>{1, 2});
 }
 
-TEST_CASE("of two rows alike at one place, as both faces at an edge have by rounding, the first one stays") {
+TEST_CASE("of two equal constraints at one place, as rounding gives for both faces at an edge, the first one stays") {
     const Vec3 place(0.3, 0.2, 0.1), rounded = place + Vec3(1e-13, 0.0, 0.0);
     for (const bool minimum : {true, false}) {
         Written written;
@@ -65,11 +67,11 @@ TEST_CASE("of two rows alike at one place, as both faces at an edge have by roun
         written.add_at(place + Vec3(1e-4, 0.0, 0.0), 3, 0.0, minimum);
         written.add_at(place, 4, 60.0, minimum);  // from another side
         written.end_feature();
-        CHECK(written.rows.feature == std::vector<int>{1, 3, 4});
+        CHECK(written.constraints.feature == std::vector<int>{1, 3, 4});
     }
 }
 
-TEST_CASE("minima of another cloth feature, and rows that were there before, do not count") {
+TEST_CASE("minima of another cloth feature, and constraints that existed before, do not count") {
     Written written;
     written.add(1, 0.0, true);
     written.end_feature();
@@ -77,17 +79,17 @@ TEST_CASE("minima of another cloth feature, and rows that were there before, do 
     written.end_feature();
     written.add(3, 0.0, true);
     written.add(4, 0.0, false);
-    written.minima.begin(written.rows);
+    written.minima.begin(written.constraints);
     written.end_feature();
-    CHECK(written.rows.feature == std::vector<int>{1, 2, 3, 4});
+    CHECK(written.constraints.feature == std::vector<int>{1, 2, 3, 4});
 }
 
-TEST_CASE("rows of edges do not give way") {
+TEST_CASE("constraints of edges do not give way") {
     Written written;
     written.add(1, 0.0, false, 8);
     written.add(2, 0.0, true, 8);
     written.end_feature();
-    CHECK(written.rows.feature == std::vector<int>{1, 2});
+    CHECK(written.constraints.feature == std::vector<int>{1, 2});
 }
 
 }  // namespace percale::test::feature_minima_test

@@ -26,21 +26,21 @@ struct BallsUnderSheet {
             obstacles.push_back(std::make_unique<Obstacle>(make_sphere(0.2, 2), pose, 0.1, make_brute_force_tree));
         }
     }
-    /// Lists for the cloth where it lies; every other pack is told to be standing.
+    /// Lists for the cloth where it lies; every other pack is made persistent.
     CandidateLists lists() {
         CandidateLists made(cloth.triangles, thickness_of_vertex, cloth.vertices);
         std::vector<Vec3> to = cloth.vertices;
         for (Vec3& x : to) x.y() -= 0.01;
         made.cover({.from = cloth.vertices, .to = to, .fraction = {0.0, 1.0}}, obstacles);
         for (ClusterList& list : made.lists()) {
-            for (std::size_t i = 0; i < list.packs.size(); i += 2) list.packs.activate(i, i % 8, thickness);
-            list.has_standing = list.packs.size() > 0;
+            for (std::size_t i = 0; i < list.packs.size(); i += 2) list.packs.make_persistent(i, i % 8, thickness);
+            list.has_persistent = list.packs.size() > 0;
         }
         return made;
     }
 };
 
-/// What a list says of the obstacles but one: by obstacle, feature's vertices, pack, standing lanes and bounds.
+/// Contents of a list for all obstacles but one: obstacle, feature's vertices, pack, persistent lanes and bounds.
 using Said = std::tuple<int, std::array<int, 3>, unsigned, unsigned, float, float>;
 std::vector<Said> said_by(const ClusterList& list, int without) {
     std::vector<Said> all;
@@ -49,14 +49,14 @@ std::vector<Said> said_by(const ClusterList& list, int without) {
         const ContactPair& feature = list.features[pack.feature];
         if (feature.obstacle == without) continue;
         const int number = without >= 0 && feature.obstacle > without ? feature.obstacle - 1 : feature.obstacle;
-        all.emplace_back(number, feature.cloth, pack.number, pack.standing, list.packs.reach[i], list.packs.wake[i]);
+        all.emplace_back(number, feature.cloth, pack.number, pack.persistent, list.packs.reach[i], list.packs.wake[i]);
     }
     return all;
 }
 
 }  // namespace
 
-TEST_CASE("lists without an obstacle say of the others what they said before, and stay good") {
+TEST_CASE("lists without an obstacle keep their contents about the others, and stay valid") {
     for (const int gone : {0, 1, 2}) {
         CAPTURE(gone);
         BallsUnderSheet scene;
@@ -76,21 +76,22 @@ TEST_CASE("lists without an obstacle say of the others what they said before, an
             const ClusterList& list = lists.lists()[c];
             CHECK(said_by(list, -1) == before[c]);
             CHECK(list.version == total_version(scene.obstacles));
-            const bool standing = std::ranges::any_of(list.packs.at, [](const ListedPack& pack) { return pack.standing != 0; });
-            CHECK(list.has_standing == standing);
+            const bool persistent =
+                std::ranges::any_of(list.packs.at, [](const ListedPack& pack) { return pack.persistent != 0; });
+            CHECK(list.has_persistent == persistent);
             const auto& reach = list.packs.reach;
             if (!reach.empty()) CHECK(list.smallest_reach == static_cast<double>(*std::ranges::min_element(reach)));
             packs += list.packs.size();
         }
         CHECK(packs > 200);
         CHECK_FALSE(lists.empty());
-        // They are not made anew: the next call finds them good.
+        // They are not rebuilt: the next call finds them valid.
         lists.cover({.from = scene.cloth.vertices, .to = scene.cloth.vertices, .fraction = {0.0, 1.0}}, scene.obstacles);
         for (std::size_t c = 0; c < before.size(); ++c) CHECK(lists.lists()[c].packs.size() == before[c].size());
     }
 }
 
-TEST_CASE("lists that were not good before are not so after, and without obstacles nothing is near") {
+TEST_CASE("lists that were not valid before are not valid after, and without obstacles nothing is near") {
     BallsUnderSheet scene;
     CandidateLists lists = scene.lists();
     lists.memory().lists[0].version = no_version;

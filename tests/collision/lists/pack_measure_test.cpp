@@ -31,10 +31,10 @@ ContactPair pair_of(PairKind kind) {
 
 struct Outcome {
     double excess = -1.0, slack = 0.0;
-    int near = 0, rows = 0, lost = 0, wrong_rows = 0, skipped = 0;
+    int near = 0, constraints = 0, lost = 0, wrong_constraints = 0, skipped = 0;
 };
 
-/// What a pack is told to be, against the exact distances of its pairs.
+/// Compares the answer for a pack with the exact distances of its pairs.
 void compare(const ContactPair& feature, std::span<const Vec3> cloth, Obstacle& obstacle, int number, Outcome& outcome) {
     constexpr double thickness = 0.05;
     const FeaturePack& pack = obstacle.packs().packs[number];
@@ -45,12 +45,12 @@ void compare(const ContactPair& feature, std::span<const Vec3> cloth, Obstacle& 
         pair.feature = pack.feature[lane];
         const PairContact contact = pair_contact(pair, cloth, obstacle, 0.0);
         least = std::min(least, contact.distance);
-        const bool near = contact.distance < thickness, row = near && contact.local_minimum;
+        const bool near = contact.distance < thickness, constraint = near && contact.local_minimum;
         outcome.near += near ? 1 : 0;
-        outcome.rows += row ? 1 : 0;
-        outcome.lost += (near && (answer.near >> lane & 1U) == 0) || (row && (answer.row >> lane & 1U) == 0) ? 1 : 0;
-        outcome.wrong_rows += row && static_cast<double>(answer.travel_to_contact) > 0.0 ? 1 : 0;
-        outcome.skipped += near && (answer.row >> lane & 1U) == 0 ? 1 : 0;
+        outcome.constraints += constraint ? 1 : 0;
+        outcome.lost += (near && (answer.near >> lane & 1U) == 0) || (constraint && (answer.contact >> lane & 1U) == 0) ? 1 : 0;
+        outcome.wrong_constraints += constraint && static_cast<double>(answer.travel_to_contact) > 0.0 ? 1 : 0;
+        outcome.skipped += near && (answer.contact >> lane & 1U) == 0 ? 1 : 0;
     }
     outcome.excess = std::max(outcome.excess, static_cast<double>(answer.distance_bound) - least);
     if (answer.distance_bound > -1e20F)
@@ -79,10 +79,10 @@ TEST_CASE("bounds of packs are below every distance, and no pair that is near or
     const TriangleMesh meshes[] = {make_sphere(0.3, 3), make_box({0.4, 0.3, 0.35}), spiky_ball(0.3, 2, 0.4, 9)};
     const Outcome outcome = compare_all(meshes[number], kind, random);
     CHECK(outcome.near > 20);
-    CHECK(outcome.rows > 0);
+    CHECK(outcome.constraints > 0);
     CHECK(outcome.excess <= 0.0);
     CHECK(outcome.lost == 0);
-    CHECK(outcome.wrong_rows == 0);
+    CHECK(outcome.wrong_constraints == 0);
     if (number == 0) CHECK(outcome.slack < 2e-3);
 }
 
@@ -93,11 +93,11 @@ TEST_CASE("on a fine ball most pairs that are near are known not to be contacts"
     CHECK(outcome.skipped > outcome.near / 2);
 }
 
-TEST_CASE("nothing of a pack becomes a contact before the cloth has moved as far as the answer says") {
+TEST_CASE("no feature of a pack becomes a contact before the cloth has moved as far as the answer states") {
     Random random(55);
     Obstacle obstacle(make_sphere(0.3, 3), {}, 0.0, make_brute_force_tree);
     constexpr double thickness = 0.05;
-    int rows = 0, told = 0;
+    int constraints = 0, reported = 0;
     for (int round = 0; round < 400; ++round) {
         const Vec3 target = obstacle.at(random.index(static_cast<int>(obstacle.surface().vertices.size())), 0.0);
         const std::vector<Vec3> cloth = cloth_near(target, 0.03, random);
@@ -109,19 +109,19 @@ TEST_CASE("nothing of a pack becomes a contact before the cloth has moved as far
                 measure(feature, cloth, obstacle.placed(static_cast<int>(i), 0.0), {.near = thickness, .thickness = thickness})
                     .travel_to_contact);
             if (!(way > 0.0)) continue;
-            ++told;
+            ++reported;
             std::vector<Vec3> moved = cloth;
             for (Vec3& x : moved) x += way * random.unit();
             for (int lane = 0; lane < pack.count; ++lane) {
                 ContactPair pair = feature;
                 pair.feature = pack.feature[lane];
                 const PairContact contact = pair_contact(pair, moved, obstacle, 0.0);
-                rows += contact.local_minimum && contact.distance < thickness ? 1 : 0;
+                constraints += contact.local_minimum && contact.distance < thickness ? 1 : 0;
             }
         }
     }
-    CHECK(told > 1000);
-    CHECK(rows == 0);
+    CHECK(reported > 1000);
+    CHECK(constraints == 0);
 }
 
 }  // namespace percale::test::pack_measure_test

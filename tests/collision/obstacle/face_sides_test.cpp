@@ -77,7 +77,7 @@ TEST_CASE("the solid is behind the normals of a closed mesh and of its cavity, b
 
 namespace {
 
-/// A closed mesh as the certificate asks for winding numbers.
+/// A closed mesh in the form that winding numbers need.
 struct Asked {
     std::vector<certificate::Corners> corners;
     certificate::BoxTree tree;
@@ -93,7 +93,7 @@ Vec3 point_within(const certificate::Corners& t, Random& random) {
     return t[0] + a * (t[1] - t[0]) + b * (t[2] - t[0]);
 }
 
-/// At how many of five places on a triangle the solid is not where it is said to be.
+/// At how many of five places on a triangle the solid is not on the stated sides.
 int wrong_places(const Asked& asked, std::size_t triangle, FaceSides said, Random& random) {
     const certificate::Corners& t = asked.corners[triangle];
     const Vec3 little = 1e-8 * (t[1] - t[0]).cross(t[2] - t[0]).normalized();

@@ -51,7 +51,7 @@ void check_lane(Obstacle& obstacle, int number, int lane, double fraction, Fit& 
 
 }  // namespace
 
-TEST_CASE("every face and every edge and vertex that can be touched is in one pack, where its place says") {
+TEST_CASE("every face and every edge and vertex that can be touched is in one pack, at its stated place") {
     const ObstacleSurface surface = [] {
         const TriangleMesh mesh = some_mesh(GENERATE(0, 1, 2));
         return make_surface(mesh.vertices, mesh.triangles);
@@ -91,7 +91,7 @@ TEST_CASE("boxes and planes hold their packs during the whole step, and placed p
     }
 }
 
-TEST_CASE("hulls, motions and placed packs that were asked for in one step are made anew for the next") {
+TEST_CASE("hulls, motions and placed packs that were computed in one step are computed again for the next") {
     Random random(43);
     Obstacle obstacle(some_mesh(1), {}, 0.0, make_brute_force_tree);
     Pose start = random.pose(0.5);

@@ -269,7 +269,7 @@ int free_around(const TriangleMesh& solid, const Vec3& point, const Vec3& along)
 
 }  // namespace
 
-TEST_CASE("an edge that cannot be touched has free space on half a turn at most, also where a body is inside out") {
+TEST_CASE("an edge that cannot be touched has free space on at most half a turn, also where a body is inside out") {
     int valleys = 0, wrong = 0;
     for (unsigned seed = 0; seed < 40; ++seed) {
         const TriangleMesh mesh = tangled_ball(0.3, 1, 0.1 + 0.01 * seed, seed);

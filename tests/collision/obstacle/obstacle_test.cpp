@@ -28,7 +28,7 @@ std::vector<std::vector<int>> lists(Obstacle& obstacle, std::span<const Box> ask
     return result;
 }
 
-/// Points of triangles, at times during the step, that lie in an asked box whose list lacks the triangle's patch.
+/// Points of triangles, at times during the step, that lie in a queried box whose list lacks the triangle's patch.
 long missing(const Obstacle& obstacle, std::span<const Box> asked, const std::vector<std::vector<int>>& found) {
     Random random(77);
     long count = 0;
@@ -140,7 +140,7 @@ TEST_CASE("at rest where it was built an obstacle gives exactly the patches whos
     }
 }
 
-TEST_CASE("a turned obstacle is asked with a box not much larger than needed") {
+TEST_CASE("a turned obstacle is queried with a box not much larger than needed") {
     Random random(34);
     Obstacle obstacle = make(make_sphere(0.5, 4), {});
     const Pose still = random.pose(0.3);

@@ -14,7 +14,8 @@ namespace {
 
 bool same(const PackAnswer& a, const PackAnswer& b) {
     return std::memcmp(&a.distance_bound, &b.distance_bound, sizeof(float)) == 0 &&
-           std::memcmp(&a.travel_to_contact, &b.travel_to_contact, sizeof(float)) == 0 && a.near == b.near && a.row == b.row;
+           std::memcmp(&a.travel_to_contact, &b.travel_to_contact, sizeof(float)) == 0 && a.near == b.near &&
+           a.contact == b.contact;
 }
 
 }  // namespace
@@ -55,7 +56,7 @@ TEST_CASE("all instruction sets give the same bits") {
     CHECK(differing == 0);
 }
 
-TEST_CASE("a point over a square triangle is as far from it as it is high, and lanes that are not there are not near") {
+TEST_CASE("a point over a right triangle is as far from it as it is high, and unused lanes are not near") {
     PackLanes lanes{};
     for (int lane = 0; lane < pack_lanes; ++lane) {
         const float corner[9] = {0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -74,10 +75,10 @@ TEST_CASE("a point over a square triangle is as far from it as it is high, and l
     CHECK(answer.distance_bound == Approx(0.3).margin(1e-5));
     CHECK(answer.distance_bound < 0.3F);
     CHECK(answer.near == 0b11);
-    CHECK(answer.row == 0b11);
+    CHECK(answer.contact == 0b11);
 }
 
-TEST_CASE("the least bound and those up to a limit are found in arrays of any length, by all instruction sets") {
+TEST_CASE("the smallest bound and those up to a limit are found in arrays of any length, by all instruction sets") {
     const PackKernels* kernels = GENERATE(baseline_pack_kernels(), avx2_pack_kernels());
     const std::size_t count = GENERATE(0, 1, 7, 8, 9, 40, 1003);
     if (!kernels) return;

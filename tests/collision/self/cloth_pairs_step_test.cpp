@@ -10,7 +10,7 @@
 
 namespace percale::test::cloth_pairs_step_test {
 
-// What is said of pairs of cloths, through the whole of a simulation.
+// Settings of pairs of cloths, through the whole of a simulation.
 
 namespace {
 
@@ -61,7 +61,7 @@ struct ThreeSheets {
 
 }  // namespace
 
-TEST_CASE("Cloths that are said not to meet pass through each other, others still meet them") {
+TEST_CASE("Cloths that are set not to meet pass through each other, others still meet them") {
     ThreeSheets scene;
     scene.simulation.set_pair(scene.napkin, scene.table, {.contact = false});
     CHECK_FALSE(scene.simulation.meets(scene.table, scene.napkin));
@@ -103,7 +103,7 @@ TEST_CASE("Cloths that come to meet while they cross are untangled by the next s
     CHECK_FALSE(scene.simulation.start_repair().empty());
 }
 
-TEST_CASE("A pair keeps the distance that is said, nearer or farther than the cloths' own") {
+TEST_CASE("A pair keeps the distance that is set, nearer or farther than the cloths' own") {
     for (const double thickness : {0.002, 0.010}) {
         CAPTURE(thickness);
         ThreeSheets scene;
@@ -116,7 +116,7 @@ TEST_CASE("A pair keeps the distance that is said, nearer or farther than the cl
     }
 }
 
-TEST_CASE("What is said of a pair is checked, and taken back by saying nothing") {
+TEST_CASE("The setting of a pair is checked, and withdrawn by an empty one") {
     ThreeSheets scene;
     CHECK(scene_error([&] { scene.simulation.set_pair(scene.table, {7}, {}); }).find("no cloth 7") != std::string::npos);
     const std::string range = scene_error([&] { scene.simulation.set_pair(scene.table, scene.napkin, {.thickness = 2.0}); });
@@ -343,7 +343,7 @@ TEST_CASE("The certificate leaves out triangles of cloths that do not meet, and 
           }).find("certify_cloth: the cloths of") != std::string::npos);
 }
 
-TEST_CASE("The order of layers says which of two interleaved cloths goes above the other, and is one of a saved state's marks") {
+TEST_CASE("The order of layers decides which of two interleaved cloths goes above the other, and is part of a saved state") {
     const int upper = GENERATE(0, 1);
     const auto made = [&](int layer) {
         auto simulation = std::make_unique<Simulation>(StepSettings{}, make_brute_force_detector());

@@ -45,8 +45,8 @@ bool near(const NearCloths::Cloth& a, const NearCloths::Cloth& b, const std::vec
     return box_of(a).overlaps(box_of(b));
 }
 
-std::vector<int> expected_groups(const std::vector<NearCloths::Cloth>& cloths, const std::vector<int>& before,
-                                 const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
+std::vector<int> expected_islands(const std::vector<NearCloths::Cloth>& cloths, const std::vector<int>& before,
+                                  const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
     const int count = static_cast<int>(cloths.size());
     DisjointSets sets(cloths.size());
     for (int a = 0; a < count; ++a) {
@@ -55,14 +55,14 @@ std::vector<int> expected_groups(const std::vector<NearCloths::Cloth>& cloths, c
             if (near(cloths[a], cloths[b], from, to, together ? 1.0 : 0.5)) sets.join(a, b);
         }
     }
-    std::vector<int> groups;
-    for (int c = 0; c < count; ++c) groups.push_back(sets.of(c));
-    return groups;
+    std::vector<int> islands;
+    for (int c = 0; c < count; ++c) islands.push_back(sets.of(c));
+    return islands;
 }
 
 }  // namespace
 
-TEST_CASE("cloths join groups where boxes of a move meet, and leave them where no way of near boxes leads to the others") {
+TEST_CASE("cloths join islands where boxes of a move meet, and leave them where no chain of near boxes leads to the others") {
     Random random(7);
     std::set<std::size_t> sizes;
     for (int round = 0; round < 50; ++round) {
@@ -73,32 +73,32 @@ TEST_CASE("cloths join groups where boxes of a move meet, and leave them where n
         for (int move = 0; move < 4; ++move) {
             const std::vector<Vec3> from = random_places(count, random), to = random_places(count, random);
             const std::vector<Vec3>& end = move % 2 == 0 ? from : to;
-            const std::vector<int> expected = expected_groups(cloths, before, from, end);
+            const std::vector<int> expected = expected_islands(cloths, before, from, end);
             tested.set_motion(from, end);
-            const std::vector<int> groups = tested.groups(before, true);
-            CHECK(groups == expected);
-            sizes.insert(std::set(groups.begin(), groups.end()).size());
-            before = groups;
+            const std::vector<int> islands = tested.islands(before, true);
+            CHECK(islands == expected);
+            sizes.insert(std::set(islands.begin(), islands.end()).size());
+            before = islands;
         }
     }
     CHECK(sizes.size() > 8);
 }
 
-TEST_CASE("cloths that hover between half of their thicknesses and a whole one keep their groups") {
+TEST_CASE("cloths that hover between half of their thicknesses and a whole one keep their islands") {
     NearCloths cloths({{.vertices = {0}, .thickness = 0.1}, {.vertices = {1}, .thickness = 0.1}});
-    const auto groups_at = [&](double apart, std::vector<int> before, bool may_part = true) {
+    const auto islands_at = [&](double apart, std::vector<int> before, bool may_part = true) {
         const std::vector<Vec3> x{Vec3::Zero(), Vec3(apart, 0, 0)};
         cloths.set_motion(x, x);
-        return cloths.groups(before, may_part);
+        return cloths.islands(before, may_part);
     };
     const std::vector<int> joined{0, 0}, parted{0, 1};
-    CHECK(groups_at(0.15, joined) == joined);
-    CHECK(groups_at(0.15, parted) == parted);
-    CHECK(groups_at(0.15, {}) == joined);
-    CHECK(groups_at(0.09, parted) == joined);
-    CHECK(groups_at(0.21, joined) == parted);
-    CHECK(groups_at(0.21, joined, false) == joined);
-    CHECK(groups_at(0.09, parted, false) == joined);
+    CHECK(islands_at(0.15, joined) == joined);
+    CHECK(islands_at(0.15, parted) == parted);
+    CHECK(islands_at(0.15, {}) == joined);
+    CHECK(islands_at(0.09, parted) == joined);
+    CHECK(islands_at(0.21, joined) == parted);
+    CHECK(islands_at(0.21, joined, false) == joined);
+    CHECK(islands_at(0.09, parted, false) == joined);
 }
 
 }  // namespace percale::test::near_cloths_test

@@ -56,110 +56,111 @@ Cloths clear_fan(Random& random) {
     }
 }
 
-ContactRows rows_where_sewn(const Cloths& cloths, std::span<const Stitch> stitches) {
+ContactConstraints constraints_where_sewn(const Cloths& cloths, std::span<const Stitch> stitches) {
     SelfContact self = cloths.self_contact();
     self.stitches = stitches;
     const auto detector = backends()[0].make_detector();
     detector->set_cloth(cloths.mesh.triangles, cloths.thickness);
     detector->set_self_contact(self);
-    detector->refresh(cloths.mesh.vertices, cloths.mesh.vertices);
-    ContactRows rows;
-    detector->evaluate(cloths.mesh.vertices, 0.0, rows);
-    return rows;
+    detector->update_candidates(cloths.mesh.vertices, cloths.mesh.vertices);
+    ContactConstraints constraints;
+    detector->find_contacts(cloths.mesh.vertices, 0.0, constraints);
+    return constraints;
 }
 
 }  // namespace
 
-TEST_CASE("after a cut no cloth crosses cloth, on thousands of random moves", "[slow]") {
+TEST_CASE("after a clamp no cloth crosses cloth, on thousands of random moves", "[slow]") {
     Random random(GENERATE(1U, 2U, 3U));
     const Cloths cloths = sheet_stack(3, 6, 0.1, random.decades(1e-3, 0.05), random);
     const auto detector = detector_for(cloths, backends()[0]);
     std::vector<Vec3> x = cloths.mesh.vertices;
     REQUIRE(cloths.clean(x));
-    int cuts = 0;
+    int clamps = 0;
     for (int move = 0; move < 400; ++move) {
         const Vec3 together = random.point(1.0);
         std::vector<Vec3> to = shaken(x, random.decades(1e-3, 1.0), random);
         for (Vec3& point : to) point += together;
-        if (move % 4 == 0) detector->refresh(x, to);
-        const double fraction = detector->largest_safe_fraction(x, to, {0.0, 1.0});
+        if (move % 4 == 0) detector->update_candidates(x, to);
+        const double fraction = detector->collision_free_step_size(x, to, {0.0, 1.0});
         REQUIRE((fraction >= 0.0 && fraction <= 1.0));
-        cuts += fraction < 1.0;
+        clamps += fraction < 1.0;
         REQUIRE(cloths.clean(between(x, to, 0.5 * fraction)));
         x = between(x, to, fraction);
         REQUIRE(cloths.clean(x));
         if (move % 20 == 19) x = cloths.mesh.vertices;
     }
-    CHECK(cuts > 200);
-    CHECK(cuts < 400);
+    CHECK(clamps > 200);
+    CHECK(clamps < 400);
 }
 
 TEST_CASE("triangles that share a vertex or an edge do not come to share more, on thousands of random moves", "[slow]") {
     Random random(GENERATE(1U, 2U, 3U));
-    int would_cross = 0, cuts = 0;
+    int would_cross = 0, clamps = 0;
     for (int trial = 0; trial < 400; ++trial) {
         const Cloths cloths = clear_fan(random);
         const auto detector = detector_for(cloths, backends()[0]);
         std::vector<Vec3> x = cloths.mesh.vertices;
         for (int move = 0; move < 10; ++move) {
             const std::vector<Vec3> to = shaken(x, random.decades(1e-2, 2.0), random);
-            detector->refresh(x, to);
-            const double fraction = detector->largest_safe_fraction(x, to, {0.0, 1.0});
+            detector->update_candidates(x, to);
+            const double fraction = detector->collision_free_step_size(x, to, {0.0, 1.0});
             would_cross += cloths.clean(to) ? 0 : 1;
-            cuts += fraction < 1.0;
+            clamps += fraction < 1.0;
             REQUIRE(cloths.clean(between(x, to, 0.5 * fraction)));
             x = between(x, to, fraction);
             REQUIRE(cloths.clean(x));
         }
     }
     CHECK(would_cross > 200);
-    CHECK(cuts >= would_cross);
+    CHECK(clamps >= would_cross);
 }
 
-TEST_CASE("rows between cloths keep the promise of their header") {
+TEST_CASE("contact constraints between cloths satisfy the equation of their header") {
     Random random(GENERATE(1U, 2U));
     const double h = 0.05;
     Cloths cloths = sheet_stack(3, 8, 0.04, h, random);
     for (std::size_t i = 0; i < 64; ++i) cloths.thickness[i] = 0.02;
     const auto detector = detector_for(cloths, backends()[0]);
     const auto& x = cloths.mesh.vertices;
-    ContactRows rows;
-    detector->refresh(x, x);
-    detector->evaluate(x, 0.3, rows);
-    REQUIRE(rows.size() > 50);
+    ContactConstraints constraints;
+    detector->update_candidates(x, x);
+    detector->find_contacts(x, 0.3, constraints);
+    REQUIRE(constraints.size() > 50);
     double least = 1e300;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        Vec3 apart = -rows.obstacle_point[i];
+    for (std::size_t i = 0; i < constraints.size(); ++i) {
+        Vec3 apart = -constraints.obstacle_point[i];
         double sum = 0.0;
         for (int k = 0; k < 4; ++k) {
-            apart += rows.weight[i][k] * x[rows.vertex[i][k]];
-            sum += rows.weight[i][k];
+            apart += constraints.weight[i][k] * x[constraints.vertex[i][k]];
+            sum += constraints.weight[i][k];
         }
         CHECK(sum == Approx(0.0).margin(1e-14));
-        CHECK((apart - rows.distance[i] * rows.direction[i]).norm() < 1e-12);
-        CHECK(rows.distance[i] < rows.thickness[i]);
-        CHECK(rows.distance[i] > 0.0);
-        CHECK(rows.obstacle[i] == -1);
-        CHECK(rows.obstacle_displacement[i] == Vec3(Vec3::Zero()));
-        const int first = rows.vertex[i][0], second = rows.vertex[i][3];
-        CHECK(rows.friction[i] == Approx(0.5 * (cloths.friction[first] + cloths.friction[second])));
-        CHECK(rows.thickness[i] <= 0.5 * (cloths.thickness[first] + cloths.thickness[second]) * (1 + 1e-12));
-        least = std::min(least, rows.distance[i]);
+        CHECK((apart - constraints.distance[i] * constraints.direction[i]).norm() < 1e-12);
+        CHECK(constraints.distance[i] < constraints.thickness[i]);
+        CHECK(constraints.distance[i] > 0.0);
+        CHECK(constraints.obstacle[i] == -1);
+        CHECK(constraints.obstacle_displacement[i] == Vec3(Vec3::Zero()));
+        const int first = constraints.vertex[i][0], second = constraints.vertex[i][3];
+        CHECK(constraints.friction[i] == Approx(0.5 * (cloths.friction[first] + cloths.friction[second])));
+        CHECK(constraints.thickness[i] <= 0.5 * (cloths.thickness[first] + cloths.thickness[second]) * (1 + 1e-12));
+        least = std::min(least, constraints.distance[i]);
     }
     CHECK(detector->smallest_distance() == least);
 }
 
-TEST_CASE("every vertex of cloth that lies above a face of other cloth nearer than the thickness has a row") {
+TEST_CASE("every vertex of cloth that lies above a face of other cloth nearer than the thickness has a constraint") {
     Random random(GENERATE(3U, 4U, 5U));
     const double h = 0.05;
     const Cloths cloths = sheet_stack(2, 8, 0.04, h, random);
     const auto detector = detector_for(cloths, backends()[0]);
     const std::vector<Vec3> x = shaken(cloths.mesh.vertices, 0.004, random);
-    ContactRows rows;
-    detector->evaluate(x, 0.0, rows);
+    ContactConstraints constraints;
+    detector->find_contacts(x, 0.0, constraints);
     std::vector<double> nearest(x.size(), 1e300);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (rows.feature[i] == 1) nearest[rows.vertex[i][0]] = std::min(nearest[rows.vertex[i][0]], rows.distance[i]);
+    for (std::size_t i = 0; i < constraints.size(); ++i) {
+        if (constraints.feature[i] == 1)
+            nearest[constraints.vertex[i][0]] = std::min(nearest[constraints.vertex[i][0]], constraints.distance[i]);
     }
     int above = 0;
     const ClothSurface surface = make_cloth_surface(cloths.mesh.triangles, x.size());
@@ -182,15 +183,15 @@ TEST_CASE("a sheet folded onto itself is in contact with itself") {
     cloths.add(make_grid(1, 1, 21, 21), 0.02);
     const auto detector = detector_for(cloths, backends()[0]);
     const std::vector<Vec3> x = folded(cloths.mesh, 0.01);
-    ContactRows rows;
-    detector->evaluate(x, 0.0, rows);
-    CHECK(rows.size() > 200);
+    ContactConstraints constraints;
+    detector->find_contacts(x, 0.0, constraints);
+    CHECK(constraints.size() > 200);
     CHECK(detector->smallest_distance() == Approx(0.01).epsilon(0.1));
     std::vector<Vec3> through = x;
     for (std::size_t i = 0; i < through.size(); ++i) {
         if (cloths.mesh.vertices[i].x() > 0.1) through[i].y() -= 0.05;
     }
-    const double fraction = detector->largest_safe_fraction(x, through, {0.0, 1.0});
+    const double fraction = detector->collision_free_step_size(x, through, {0.0, 1.0});
     CHECK(fraction < 0.2);
     CHECK(fraction > 0.05);
     CHECK(cloths.clean(between(x, through, fraction)));
@@ -203,87 +204,87 @@ TEST_CASE(
     const TriangleMesh sheet = make_grid(0.1, 0.1, 29, 29);  // edges of 3.6 mm
     cloths.add(sheet, 0.02);
     const auto detector = detector_for(cloths, backends()[0]);
-    ContactRows rows;
+    ContactConstraints constraints;
     for (const double scale : {1.0, 1.5, 0.6}) {
         std::vector<Vec3> x = sheet.vertices;
         for (Vec3& point : x) point = {scale * point.x(), 0.5 * std::sin(20.0 * point.x()) / 20.0, point.z()};
-        detector->evaluate(x, 0.0, rows);
-        CHECK(rows.size() == 0);
+        detector->find_contacts(x, 0.0, constraints);
+        CHECK(constraints.size() == 0);
         CHECK(std::isinf(detector->smallest_distance()));
     }
 }
 
-TEST_CASE("cloth that moves as a whole or apart is not cut, cloth that is not said to meet cloth passes through it") {
+TEST_CASE("cloth that moves as a whole or apart is not clamped, cloth that is not set to meet cloth passes through it") {
     Random random(7);
     const Cloths cloths = sheet_stack(3, 6, 0.1, 0.02, random);
     const auto detector = detector_for(cloths, backends()[0]);
     std::vector<Vec3> to = cloths.mesh.vertices;
     for (std::size_t i = 0; i < to.size(); ++i) to[i] += Vec3(3.0, 20.0 + 0.5 * cloths.cloth[i], -1.0);
-    CHECK(detector->largest_safe_fraction(cloths.mesh.vertices, to, {0.0, 1.0}) == 1.0);
+    CHECK(detector->collision_free_step_size(cloths.mesh.vertices, to, {0.0, 1.0}) == 1.0);
     for (std::size_t i = 0; i < to.size(); ++i) to[i].y() -= 2.0 * cloths.cloth[i];
-    CHECK(detector->largest_safe_fraction(cloths.mesh.vertices, to, {0.0, 1.0}) < 0.2);
+    CHECK(detector->collision_free_step_size(cloths.mesh.vertices, to, {0.0, 1.0}) < 0.2);
     detector->set_cloth(cloths.mesh.triangles, cloths.thickness);
-    CHECK(detector->largest_safe_fraction(cloths.mesh.vertices, to, {0.0, 1.0}) == 1.0);
-    ContactRows rows;
-    detector->evaluate(cloths.mesh.vertices, 0.0, rows);
-    CHECK(rows.size() == 0);
+    CHECK(detector->collision_free_step_size(cloths.mesh.vertices, to, {0.0, 1.0}) == 1.0);
+    ContactConstraints constraints;
+    detector->find_contacts(cloths.mesh.vertices, 0.0, constraints);
+    CHECK(constraints.size() == 0);
 }
 
-TEST_CASE("threads change no bit of rows, distances and cuts between cloths", "[slow]") {
+TEST_CASE("threads change no bit of constraints, distances and clamps between cloths", "[slow]") {
     Random random(41);
     const Cloths cloths = sheet_stack(3, 25, 0.06, 0.03, random);
     const auto workers = make_workers(3);
     SelfContactDetection one(cloths.mesh.triangles, cloths.thickness, cloths.self_contact());
     SelfContactDetection several(cloths.mesh.triangles, cloths.thickness, cloths.self_contact());
     std::vector<Vec3> x = cloths.mesh.vertices;
-    int cuts = 0;
+    int clamps = 0;
     std::size_t count = 0;
     for (int step = 0; step < 12; ++step) {
         const std::vector<Vec3> to = shaken(x, 0.03, random);
-        one.refresh(x, to);
-        several.refresh(x, to, workers.get());
-        ContactRows rows, same;
-        CHECK(one.add_rows(x, rows) == several.add_rows(x, same, workers.get()));
-        CHECK(same_rows(rows, same));
-        count += rows.size();
-        const double fraction = one.largest_safe_fraction(x, to);
-        CHECK(several.largest_safe_fraction(x, to, workers.get()) == fraction);
-        cuts += fraction < 1.0;
+        one.update_candidates(x, to);
+        several.update_candidates(x, to, workers.get());
+        ContactConstraints constraints, same;
+        CHECK(one.add_constraints(x, constraints) == several.add_constraints(x, same, workers.get()));
+        CHECK(same_constraints(constraints, same));
+        count += constraints.size();
+        const double fraction = one.collision_free_step_size(x, to);
+        CHECK(several.collision_free_step_size(x, to, workers.get()) == fraction);
+        clamps += fraction < 1.0;
         x = between(x, to, fraction);
     }
-    CHECK(cuts > 3);
+    CHECK(clamps > 3);
     CHECK(count > 100);
 }
 
-TEST_CASE("all backends give the same rows between cloths and the same cuts, behind those of obstacles") {
+TEST_CASE("all backends give the same constraints between cloths, behind those of obstacles, and the same clamps") {
     Random random(2);
     const Cloths cloths = sheet_stack(3, 7, 0.06, 0.05, random);
     const std::vector<Vec3> to = shaken(cloths.mesh.vertices, 0.2, random);
     const TriangleMesh ball = moved(make_sphere(0.3, 2), {0, -0.33, 0});
-    ContactRows first;
-    double cut = -1.0;
+    ContactConstraints first;
+    double clamp = -1.0;
     for (const Backend& backend : backends()) {
         const auto detector = detector_for(cloths, backend);
         detector->add_obstacle(ball, {}, 0.2);
-        detector->refresh(cloths.mesh.vertices, to);
-        const double fraction = detector->largest_safe_fraction(cloths.mesh.vertices, to, {0.0, 1.0});
-        ContactRows rows;
-        detector->evaluate(between(cloths.mesh.vertices, to, fraction), fraction, rows);
-        REQUIRE(rows.obstacle.front() == 0);
-        REQUIRE(rows.obstacle.back() == -1);
-        CHECK(std::is_sorted(rows.obstacle.rbegin(), rows.obstacle.rend()));
-        if (cut < 0.0) {
-            first = rows;
-            cut = fraction;
+        detector->update_candidates(cloths.mesh.vertices, to);
+        const double fraction = detector->collision_free_step_size(cloths.mesh.vertices, to, {0.0, 1.0});
+        ContactConstraints constraints;
+        detector->find_contacts(between(cloths.mesh.vertices, to, fraction), fraction, constraints);
+        REQUIRE(constraints.obstacle.front() == 0);
+        REQUIRE(constraints.obstacle.back() == -1);
+        CHECK(std::is_sorted(constraints.obstacle.rbegin(), constraints.obstacle.rend()));
+        if (clamp < 0.0) {
+            first = constraints;
+            clamp = fraction;
         }
-        CHECK(same_rows(rows, first));
-        CHECK(fraction == cut);
+        CHECK(same_constraints(constraints, first));
+        CHECK(fraction == clamp);
     }
 }
 
-TEST_CASE("contacts of edges go by where a step begins, and grow evenly with the angle between them") {
+TEST_CASE("contacts of edges depend on where a step begins, and grow linearly with the angle between them") {
     const double h = 0.005;
-    // The lower triangle hangs from its edge, the upper one stands on its own, turned about a vertical axis.
+    // The lower triangle hangs from its edge, the upper one stands on its edge, turned about a vertical axis.
     const auto at = [&](double degrees, double gap) {
         const double angle = degrees * std::numbers::pi / 180.0;
         const Vec3 along = 0.02 * Vec3(std::cos(angle), 0, std::sin(angle)), middle(0, gap, 0);
@@ -295,24 +296,24 @@ TEST_CASE("contacts of edges go by where a step begins, and grow evenly with the
     cloths.add({.vertices = {crossing.begin() + 3, crossing.end()}, .triangles = {{0, 1, 2}}}, h);
     // m, by how much two edges are nearer than where their contact begins.
     const auto depth_at = [&](ContactDetector& detector, const std::vector<Vec3>& x) {
-        detector.refresh(x, x);
-        ContactRows rows;
-        detector.evaluate(x, 0.0, rows);
+        detector.update_candidates(x, x);
+        ContactConstraints constraints;
+        detector.find_contacts(x, 0.0, constraints);
         double depth = 0.0;
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            if (rows.feature[i] == 2) depth += rows.thickness[i] - rows.distance[i];
+        for (std::size_t i = 0; i < constraints.size(); ++i) {
+            if (constraints.feature[i] == 2) depth += constraints.thickness[i] - constraints.distance[i];
         }
         return depth;
     };
     const auto lasting = detector_for(cloths, backends()[0]);
     CHECK(depth_at(*lasting, at(10.0, 0.8 * h)) == Approx(0.2 * h));
-    // Until the next refresh a contact keeps what it began with.
-    ContactRows rows;
-    lasting->evaluate(at(2.5, 0.3 * h), 0.0, rows);
-    const auto first_of_edges = std::ranges::find(rows.feature, 2) - rows.feature.begin();
-    REQUIRE(std::ranges::count(rows.feature, 2) == 1);
-    CHECK(rows.thickness[first_of_edges] == Approx(h));  // at this angle it would begin with less than half of that
-    CHECK(depth_at(*lasting, at(0.5, 0.2 * h)) == 0.0);  // nearly parallel edges have contacts at their ends
+    // Until the next update of the candidates a contact keeps its first activation distance.
+    ContactConstraints constraints;
+    lasting->find_contacts(at(2.5, 0.3 * h), 0.0, constraints);
+    const auto first_of_edges = std::ranges::find(constraints.feature, 2) - constraints.feature.begin();
+    REQUIRE(std::ranges::count(constraints.feature, 2) == 1);
+    CHECK(constraints.thickness[first_of_edges] == Approx(h));  // at this angle it would begin with less than half of that
+    CHECK(depth_at(*lasting, at(0.5, 0.2 * h)) == 0.0);         // nearly parallel edges have contacts at their ends
     double before = 0.0;
     for (double degrees = 0.5; degrees < 6.0; degrees += 0.02) {
         const std::vector<Vec3> x = at(degrees, 0.2 * h);
@@ -336,44 +337,44 @@ TEST_CASE("a vertex that passes over an edge stays in contact with the face that
     const std::vector<Vec3> x = at(-0.002);
     cloths.add({.vertices = {x.begin(), x.begin() + 4}, .triangles = {{0, 1, 2}, {1, 0, 3}}}, h);
     cloths.add({.vertices = {x.begin() + 4, x.end()}, .triangles = {{0, 1, 2}}}, h);
-    const auto rows_at = [&](ContactDetector& detector, const std::vector<Vec3>& places) {
-        detector.refresh(places, places);
-        ContactRows rows;
-        detector.evaluate(places, 0.0, rows);
-        return rows.size();
+    const auto constraints_at = [&](ContactDetector& detector, const std::vector<Vec3>& places) {
+        detector.update_candidates(places, places);
+        ContactConstraints constraints;
+        detector.find_contacts(places, 0.0, constraints);
+        return constraints.size();
     };
-    CHECK(rows_at(*detector_for(cloths, backends()[0]), at(0.002)) == 1);
+    CHECK(constraints_at(*detector_for(cloths, backends()[0]), at(0.002)) == 1);
     const auto detector = detector_for(cloths, backends()[0]);
-    CHECK(rows_at(*detector, at(-0.002)) == 1);
-    ContactRows rows;
-    detector->evaluate(at(0.002), 0.0, rows);
-    CHECK(rows.size() == 2);
-    CHECK(rows_at(*detector, at(0.002)) == 1);
+    CHECK(constraints_at(*detector, at(-0.002)) == 1);
+    ContactConstraints constraints;
+    detector->find_contacts(at(0.002), 0.0, constraints);
+    CHECK(constraints.size() == 2);
+    CHECK(constraints_at(*detector, at(0.002)) == 1);
 }
 
 TEST_CASE("edges over a valley whose slopes are sewn to them are in contact once they are near") {
     // The slopes lie nearer to the upper edge than the valley's ground, but its ends are sewn to them.
-    const auto rows_at = [](double height, bool sewn) {
+    const auto constraints_at = [](double height, bool sewn) {
         Cloths cloths;
         cloths.add({.vertices = {{0, 0, -5}, {0, 0, 5}, {-0.2, 0.1, 0}, {0.2, 0.1, 0}}, .triangles = {{0, 2, 1}, {0, 1, 3}}},
                    0.6);
         cloths.add({.vertices = {{-0.2, height, 0}, {0.2, height, 0}, {0, height + 1.0, 0}}, .triangles = {{0, 1, 2}}}, 0.6);
         const std::vector<Stitch> stitches{{.vertex = 4, .from = 2, .to = 2}, {.vertex = 5, .from = 3, .to = 3}};
-        const ContactRows rows = rows_where_sewn(cloths, sewn ? stitches : std::vector<Stitch>{});
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            if (sewn) CHECK(rows.distance[i] == Approx(height));
-            if (sewn) CHECK(std::abs(rows.direction[i].y()) == Approx(1.0));
+        const ContactConstraints constraints = constraints_where_sewn(cloths, sewn ? stitches : std::vector<Stitch>{});
+        for (std::size_t i = 0; i < constraints.size(); ++i) {
+            if (sewn) CHECK(constraints.distance[i] == Approx(height));
+            if (sewn) CHECK(std::abs(constraints.direction[i].y()) == Approx(1.0));
         }
-        return rows.size();
+        return constraints.size();
     };
-    CHECK(rows_at(0.03, true) == 1);
-    CHECK(rows_at(0.09, true) == 0);
-    CHECK(rows_at(0.03, false) > 1);
+    CHECK(constraints_at(0.03, true) == 1);
+    CHECK(constraints_at(0.09, true) == 0);
+    CHECK(constraints_at(0.03, false) > 1);
 }
 
 TEST_CASE("sides of a closed seam with other vertices are not in contact along it, one that folds over the other is") {
     // Of the lower panel 1 is the middle of a side, over the upper panel's edge from 5 to 6, which are sewn beside it.
-    const auto rows_at = [](bool sewn, double lift_of_fold) {
+    const auto constraints_at = [](bool sewn, double lift_of_fold) {
         Cloths cloths;
         const Vec3 up(0.0, 1e-3, 0.0), fold(0.0, lift_of_fold, lift_of_fold > 0.0 ? 1.3 : 0.0);
         cloths.add({.vertices = {up, Vec3(1, 0, 0) + up, Vec3(2, 0, 0) + up, Vec3(0.5, 0, -1) + fold, Vec3(1.5, 0, -1) + fold},
@@ -381,12 +382,12 @@ TEST_CASE("sides of a closed seam with other vertices are not in contact along i
                    0.4);
         cloths.add({.vertices = {{0.5, 0, 0}, {1.5, 0, 0}, {1, 0, 1}}, .triangles = {{0, 2, 1}}}, 0.4);
         const std::vector<Stitch> stitches{{5, 0, 1, 0.5}, {6, 1, 2, 0.5}};
-        const ContactRows rows = rows_where_sewn(cloths, sewn ? stitches : std::vector<Stitch>{});
-        return rows.size();
+        const ContactConstraints constraints = constraints_where_sewn(cloths, sewn ? stitches : std::vector<Stitch>{});
+        return constraints.size();
     };
-    CHECK(rows_at(false, 0.0) > 0);
-    CHECK(rows_at(true, 0.0) == 0);
-    CHECK(rows_at(true, 0.05) > 0);
+    CHECK(constraints_at(false, 0.0) > 0);
+    CHECK(constraints_at(true, 0.0) == 0);
+    CHECK(constraints_at(true, 0.05) > 0);
 }
 
 TEST_CASE("contacts that join while a step is solved are gone in the next") {
@@ -395,14 +396,14 @@ TEST_CASE("contacts that join while a step is solved are gone in the next") {
     const Cloths cloths = sheet_stack(2, 6, 0.04, 0.05, random);
     const auto detector = detector_for(cloths, backends()[0]);
     const auto& x = cloths.mesh.vertices;
-    ContactRows near, shifted, fresh;
-    detector->refresh(x, x);
-    detector->evaluate(x, 0.0, near);
+    ContactConstraints near, shifted, fresh;
+    detector->update_candidates(x, x);
+    detector->find_contacts(x, 0.0, near);
     std::vector<Vec3> aside = x;
     for (std::size_t i = 36; i < aside.size(); ++i) aside[i] += Vec3(0.02, 0.0, 0.015);
-    detector->evaluate(aside, 0.0, shifted);
-    detector->refresh(aside, aside);
-    detector->evaluate(aside, 0.0, fresh);
+    detector->find_contacts(aside, 0.0, shifted);
+    detector->update_candidates(aside, aside);
+    detector->find_contacts(aside, 0.0, fresh);
     CHECK(shifted.size() > fresh.size());
 }
 

@@ -20,13 +20,13 @@ std::map<Key, Value> by_features(SelfContactLists& lists, Of of) {
     std::map<Key, Value> all;
     lists.for_each([&](const SelfList& list) {
         for (SelfPair pair : list.pairs) {
-            const double zone = list.zone(pair);
+            const double activation_distance = list.activation_distance(pair);
             if (pair.shape == PairShape::edge_edge && pair.feature[0] > pair.feature[1]) {
                 std::swap(pair.feature[0], pair.feature[1]);
                 std::swap(pair.vertex[0], pair.vertex[2]);
                 std::swap(pair.vertex[1], pair.vertex[3]);
             }
-            const bool fresh = all.insert({{static_cast<int>(pair.shape), pair.feature}, of(pair, zone)}).second;
+            const bool fresh = all.insert({{static_cast<int>(pair.shape), pair.feature}, of(pair, activation_distance)}).second;
             CHECK(fresh);
         }
     });
@@ -35,8 +35,8 @@ std::map<Key, Value> by_features(SelfContactLists& lists, Of of) {
 std::map<Key, SelfPair> pairs_of(SelfContactLists& lists) {
     return by_features<SelfPair>(lists, [](const SelfPair& pair, double) { return pair; });
 }
-std::map<Key, double> zones_of(SelfContactLists& lists) {
-    return by_features<double>(lists, [](const SelfPair&, double zone) { return zone; });
+std::map<Key, double> activation_distances_of(SelfContactLists& lists) {
+    return by_features<double>(lists, [](const SelfPair&, double activation_distance) { return activation_distance; });
 }
 
 /// All pairs without a common vertex.
@@ -59,7 +59,7 @@ std::vector<SelfPair> every_pair(const Cloths& cloths) {
     return pairs;
 }
 
-double zone(const Cloths& cloths, const SelfPair& pair) {
+double activation_distance(const Cloths& cloths, const SelfPair& pair) {
     const double mean = 0.5 * (cloths.thickness[pair.vertex[0]] + cloths.thickness[pair.vertex[3]]);
     const bool one = cloths.cloth[pair.vertex[0]] == cloths.cloth[pair.vertex[3]];
     return one ? std::min(mean, 0.5 * self_distance(pair, cloths.mesh.vertices)) : mean;
@@ -79,7 +79,7 @@ int check_pairs(SelfContactLists& lists, const Cloths& cloths, const std::vector
     const auto pairs = pairs_of(lists);
     int near = 0;
     for (const SelfPair& pair : every_pair(cloths)) {
-        const double distance = self_distance(pair, here), thickness = zone(cloths, pair);
+        const double distance = self_distance(pair, here), thickness = activation_distance(cloths, pair);
         const auto found = pairs.find({static_cast<int>(pair.shape), pair.feature});
         if (found == pairs.end()) {
             CHECK(distance >= thickness);
@@ -108,7 +108,7 @@ void check_some_pairs(SelfContactLists& lists, const Cloths& cloths, const std::
         if (v == face[0] || v == face[1] || v == face[2]) continue;
         const SelfPair pair{.vertex = {v, face[0], face[1], face[2]}, .feature = {v, t}};
         if (std::binary_search(listed.begin(), listed.end(), pair.feature)) continue;
-        CHECK(self_distance(pair, here) >= zone(cloths, pair));
+        CHECK(self_distance(pair, here) >= activation_distance(cloths, pair));
     }
 }
 
@@ -120,7 +120,7 @@ void mark_all(SelfContactLists& lists) {
     });
 }
 
-/// Lists that have not been made anew since, and those that have: how many there are of each two cloths.
+/// How many lists of each two cloths have been kept, and how many rebuilt.
 std::map<std::pair<int, int>, std::array<int, 2>> kept_and_made(SelfContactLists& lists, const Cloths& cloths) {
     std::map<std::pair<int, int>, std::array<int, 2>> counts;
     lists.for_each([&](const SelfList& list) {
@@ -137,10 +137,10 @@ bool all_kept(SelfContactLists& lists, const Cloths& cloths) {
     return !counts.empty() && std::ranges::all_of(counts, [](const auto& entry) { return entry.second[1] == 0; });
 }
 
-std::vector<std::vector<int>> groups_of(const SelfContactLists& lists) {
-    std::vector<std::vector<int>> groups;
-    for (const SelfGroup& group : lists.memory().groups) groups.push_back(group.cloths);
-    return groups;
+std::vector<std::vector<int>> islands_of(const SelfContactLists& lists) {
+    std::vector<std::vector<int>> islands;
+    for (const Island& island : lists.memory().islands) islands.push_back(island.cloths);
+    return islands;
 }
 
 /// Cloth n moved by n times a vector.
@@ -156,7 +156,7 @@ std::vector<Vec3> shaken(std::vector<Vec3> x, double by, Random& random) {
 
 }  // namespace
 
-TEST_CASE("lists of cloth against cloth hold every pair that comes near on the way, each once, and bound its distance",
+TEST_CASE("lists of cloth against cloth hold every pair that comes near during a move, each once, and bound its distance",
           "[slow]") {
     Random random(GENERATE(1U, 3U));
     const double h = 0.05;
@@ -164,7 +164,7 @@ TEST_CASE("lists of cloth against cloth hold every pair that comes near on the w
     SelfContactLists lists(cloths.mesh.triangles, cloths.thickness, cloths.self_contact());
     std::vector<Vec3> x = cloths.mesh.vertices;
     for (int step = 0; step < 5; ++step) {
-        // A long way together, a short one each.
+        // A long common displacement, and a short one each.
         const Vec3 together = random.point(2.0);
         std::vector<Vec3> to = shaken(x, random.decades(1e-3, 0.1), random);
         for (Vec3& point : to) point += together;
@@ -179,7 +179,7 @@ TEST_CASE("lists of cloth against cloth hold every pair that comes near on the w
     }
 }
 
-TEST_CASE("lists hold while cloth moves as a whole, along its prediction or by less than its skin") {
+TEST_CASE("lists stay valid while cloth moves as a whole, along its prediction or by less than its skin") {
     Random random(6);
     const double h = 0.05;
     const Cloths cloths = sheet_stack(2, 9, 0.06, h, random);
@@ -204,7 +204,7 @@ TEST_CASE("lists hold while cloth moves as a whole, along its prediction or by l
     CHECK(kept(off));
 }
 
-TEST_CASE("lists about what has moved are made anew, others stay") {
+TEST_CASE("lists of cloth that has moved are rebuilt, others stay") {
     Random random(16);
     const Cloths cloths = sheet_stack(2, 17, 0.06, 0.05, random);
     SelfContactLists lists(cloths.mesh.triangles, cloths.thickness, cloths.self_contact());
@@ -220,7 +220,7 @@ TEST_CASE("lists about what has moved are made anew, others stay") {
     check_pairs(lists, cloths, x);
 }
 
-TEST_CASE("what has been a contact stays one where lists are made anew") {
+TEST_CASE("a contact stays one where lists are rebuilt") {
     Random random(9);
     const Cloths cloths = sheet_stack(2, 6, 0.06, 0.05, random);
     SelfContactLists lists(cloths.mesh.triangles, cloths.thickness, cloths.self_contact());
@@ -229,34 +229,34 @@ TEST_CASE("what has been a contact stays one where lists are made anew") {
     int marked = 0;
     lists.for_each([&](SelfList& list) {
         for (SelfPair& pair : list.pairs) {
-            if (pair.feature[1] % 3 == 0) list.record_of(pair).zone = 0.01 * (1 + pair.feature[0]);
-            marked += list.zone(pair) > 0.0;
+            if (pair.feature[1] % 3 == 0) list.record_of(pair).activation_distance = 0.01 * (1 + pair.feature[0]);
+            marked += list.activation_distance(pair) > 0.0;
         }
     });
     REQUIRE(marked > 10);
-    const auto before = zones_of(lists);
-    x[0].y() += 10.0;  // the lists no longer hold
+    const auto before = activation_distances_of(lists);
+    x[0].y() += 10.0;  // the lists are no longer valid
     lists.cover(x, x);
     lists.for_each([](const SelfList& list) { CHECK(list.pairs.capacity() <= 2 * list.pairs.size() + 8); });
     int taken = 0;
-    for (const auto& [key, zone] : zones_of(lists)) {
+    for (const auto& [key, activation_distance] : activation_distances_of(lists)) {
         const auto old = before.find(key);
-        CHECK(zone == (old == before.end() ? 0.0 : old->second));
-        taken += zone > 0.0;
+        CHECK(activation_distance == (old == before.end() ? 0.0 : old->second));
+        taken += activation_distance > 0.0;
     }
     CHECK(taken > marked / 2);
 }
 
-TEST_CASE("a list that holds no pair any more holds no memory either") {
+TEST_CASE("a list that no longer holds a pair holds no memory either") {
     SelfList list;
     list.pairs.resize(100);
-    list.record_of(list.pairs[7]).zone = 0.01;
-    list.record_of(list.pairs[40]).zone = 0.0;
+    list.record_of(list.pairs[7]).activation_distance = 0.01;
+    list.record_of(list.pairs[40]).activation_distance = 0.0;
     REQUIRE(list.record_of(list.pairs[7]).pair == 7);
     REQUIRE(list.records.size() == 2);
     list.give_up();
     REQUIRE(list.pairs.size() == 1);
-    CHECK(list.zone(list.pairs[0]) == 0.01);
+    CHECK(list.activation_distance(list.pairs[0]) == 0.01);
     CHECK(list.records[0].pair == 0);
     CHECK(list.pairs.capacity() < 3);
     list.clear(1.0);
@@ -284,7 +284,7 @@ TEST_CASE("cloths that fly past each other are in lists together while they are 
     for (int n = 0; n < 4; ++n) cloths.add(moved(make_grid(0.5, 0.5, 5, 5), random.point(0.8)), 0.04);
     SelfContactLists lists(cloths.mesh.triangles, cloths.thickness, cloths.self_contact());
     std::vector<Vec3> x = cloths.mesh.vertices;
-    std::set<std::size_t> group_counts;
+    std::set<std::size_t> island_counts;
     int of_two = 0;
     for (int step = 0; step < 20; ++step) {
         std::vector<Vec3> velocity(4);
@@ -296,15 +296,15 @@ TEST_CASE("cloths that fly past each other are in lists together while they are 
         lists.cover(to, to);
         check_pairs(lists, cloths, to);
         check_bounds(lists, to);
-        group_counts.insert(groups_of(lists).size());
+        island_counts.insert(islands_of(lists).size());
         for (const auto& [key, pair] : pairs_of(lists)) of_two += cloths.cloth[pair.vertex[0]] != cloths.cloth[pair.vertex[3]];
         x = to;
     }
-    CHECK(group_counts.size() > 1);
+    CHECK(island_counts.size() > 1);
     CHECK(of_two > 100);
 }
 
-TEST_CASE("cloths that meet join groups and keep their own lists, until they are apart") {
+TEST_CASE("cloths that meet join islands and keep their own lists, until they are apart") {
     Cloths cloths;
     for (int n = 0; n < 4; ++n) cloths.add(make_grid(1, 1, 5, 5), 0.3);
     SelfContactLists lists(cloths.mesh.triangles, cloths.thickness, cloths.self_contact());
@@ -314,7 +314,7 @@ TEST_CASE("cloths that meet join groups and keep their own lists, until they are
     }
     const std::vector<Vec3> apart = spread_out(cloths, folded, {3, 0, 0});
     lists.cover(apart, apart);
-    CHECK(groups_of(lists) == std::vector<std::vector<int>>{{0}, {1}, {2}, {3}});
+    CHECK(islands_of(lists) == std::vector<std::vector<int>>{{0}, {1}, {2}, {3}});
     mark_all(lists);
     std::vector<Vec3> x = spread_out(cloths, folded, {7, 1, -2});
     lists.cover(x, x);
@@ -323,13 +323,13 @@ TEST_CASE("cloths that meet join groups and keep their own lists, until they are
         if (cloths.cloth[v] == 2) x[v] = folded[v] + Vec3(0, 0.04, 0);  // in cloth 0's fold
     }
     lists.cover(x, x);
-    CHECK(groups_of(lists) == std::vector<std::vector<int>>{{0, 2}, {1}, {3}});
+    CHECK(islands_of(lists) == std::vector<std::vector<int>>{{0, 2}, {1}, {3}});
     CHECK(check_pairs(lists, cloths, x) > 100);
     for (const auto& [two, count] : kept_and_made(lists, cloths)) CHECK(count[two.first == two.second ? 1 : 0] == 0);
     lists.cover(apart, apart);
-    CHECK(groups_of(lists) == std::vector<std::vector<int>>{{0, 2}, {1}, {3}});
+    CHECK(islands_of(lists) == std::vector<std::vector<int>>{{0, 2}, {1}, {3}});
     lists.begin_step(apart, apart);
-    CHECK(groups_of(lists) == std::vector<std::vector<int>>{{0}, {1}, {2}, {3}});
+    CHECK(islands_of(lists) == std::vector<std::vector<int>>{{0}, {1}, {2}, {3}});
     check_pairs(lists, cloths, apart);
 }
 

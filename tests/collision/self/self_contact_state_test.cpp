@@ -19,14 +19,14 @@ void restore(SelfContactDetection& detection, const Saved& saved) {
     detection.go_on_from(detection.restored(reader));
 }
 
-/// One step of all answers; moves `x` to where the cut leads.
-ContactRows step(SelfContactDetection& detection, std::vector<Vec3>& x, const std::vector<Vec3>& to) {
-    ContactRows rows;
-    detection.refresh(x, to);
-    detection.add_rows(x, rows);
-    x = between(x, to, detection.largest_safe_fraction(x, to));
-    rows.distance.push_back(detection.add_rows(x, rows));
-    return rows;
+/// One step with all calls; moves `x` to where the clamp leads.
+ContactConstraints step(SelfContactDetection& detection, std::vector<Vec3>& x, const std::vector<Vec3>& to) {
+    ContactConstraints constraints;
+    detection.update_candidates(x, to);
+    detection.add_constraints(x, constraints);
+    x = between(x, to, detection.collision_free_step_size(x, to));
+    constraints.distance.push_back(detection.add_constraints(x, constraints));
+    return constraints;
 }
 
 std::vector<Vec3> drawn_together(const std::vector<Vec3>& x, Random& random) {
@@ -37,7 +37,7 @@ std::vector<Vec3> drawn_together(const std::vector<Vec3>& x, Random& random) {
 
 }  // namespace
 
-TEST_CASE("contact of cloth with cloth goes on in the same bits where its state is read") {
+TEST_CASE("contact of cloth with cloth continues in the same bits where its state is read") {
     Random random(2);
     const Cloths cloths = sheet_stack(3, 7, 0.04, 0.02, random);
     SelfContactDetection detection = detection_of(cloths);
@@ -47,11 +47,11 @@ TEST_CASE("contact of cloth with cloth goes on in the same bits where its state 
     for (int n = 0; n < 18; ++n) {
         if (n % 6 == 0) restore(copies.emplace_back(detection_of(cloths)), saved_by(detection));
         const std::vector<Vec3> to = drawn_together(x, random), from = x;
-        const ContactRows rows = step(detection, x, to);
-        contacts += static_cast<int>(rows.size());
+        const ContactConstraints constraints = step(detection, x, to);
+        contacts += static_cast<int>(constraints.size());
         for (SelfContactDetection& copy : copies) {
             std::vector<Vec3> there = from;
-            CHECK(same_rows(step(copy, there, to), rows));
+            CHECK(same_constraints(step(copy, there, to), constraints));
             CHECK(same_bits(there, x));
             CHECK(saved_by(copy) == saved_by(detection));
         }

@@ -133,7 +133,7 @@ TEST_CASE("Sheets that meet in free space keep their momentum and do not pass ea
         const StepReport report = simulation.step();
         REQUIRE(report.ok());
         contacts += report.contacts;
-        CHECK((momentum() - start).norm() < 1e-12 * start.norm());  // though what deforms them is solved for to percents
+        CHECK((momentum() - start).norm() < 1e-12 * start.norm());  // though their deformation is solved only to percents
     }
     CHECK(contacts > 0);
     CHECK(mean(simulation.velocities(first)).y() < -0.1);

@@ -8,7 +8,7 @@
 namespace percale::test::self_list_maker_test {
 namespace {
 
-/// m, below it a vertex and a triangle of two cloths are in contact.
+/// m, thickness of a vertex and a triangle of two cloths.
 double thickness_of(const Cloths& cloths, const ClothPairs& said, int vertex, int other) {
     const double mean = 0.5 * (cloths.thickness[vertex] + cloths.thickness[other]);
     return said.of(cloths.cloth[vertex], cloths.cloth[other]).thickness.value_or(mean);
@@ -55,7 +55,7 @@ TEST_CASE("features of one cloth have the thickness or half of their distance at
     CHECK(most > 100);
 }
 
-TEST_CASE("lists hold every pair of cloths of several thicknesses, or of one that is said, and none of cloths that do not meet") {
+TEST_CASE("lists hold every pair of cloths of several thicknesses, or of one that is set, and none of cloths that do not meet") {
     Random random(GENERATE(31U, 32U));
     Cloths cloths;
     const std::array thicknesses{0.05, 0.02, 0.03};

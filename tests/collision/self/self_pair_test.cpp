@@ -48,10 +48,10 @@ struct TwoSheets {
         return {.vertex = {vertex, t[0], t[1], t[2]}, .feature = {vertex, triangle}};
     }
     SelfPairContact contact(const SelfPair& pair) const { return self_contact(pair, mesh.vertices, surface); }
-    double total_zone(const std::vector<SelfPair>& pairs, double nearer_than) const {
+    double total_activation(const std::vector<SelfPair>& pairs, double nearer_than) const {
         double sum = 0.0;
         for (const SelfPair& p : pairs) {
-            if (self_distance(p, mesh.vertices) < nearer_than) sum += contact(p).relative_zone;
+            if (self_distance(p, mesh.vertices) < nearer_than) sum += contact(p).activation_ratio;
         }
         return sum;
     }
@@ -96,12 +96,12 @@ TEST_CASE("a vertex above a face, an edge or a corner of a sheet is in contact w
                                 Vec3(0.53, 0, 0.03), Vec3(-0.5, 0, -0.5), Vec3(-0.51, 0, -0.51));
     const TwoSheets sheets(make_grid(1, 1, 5, 5), moved(tip, place + Vec3(0, 0.002, 0)));
     const double near = 0.04;
-    double zones = sheets.total_zone(sheets.vertex_face_pairs(), near);
+    double activation_distances = sheets.total_activation(sheets.vertex_face_pairs(), near);
     for (const SelfPair& pair : sheets.edge_pairs()) {
         // Only the tip is near; edges through it end there.
-        if (self_distance(pair, sheets.mesh.vertices) < near) zones += sheets.contact(pair).relative_zone;
+        if (self_distance(pair, sheets.mesh.vertices) < near) activation_distances += sheets.contact(pair).activation_ratio;
     }
-    CHECK(zones == 1.0);
+    CHECK(activation_distances == 1.0);
 }
 
 TEST_CASE("two ridges that cross are in contact through their edges") {
@@ -110,15 +110,15 @@ TEST_CASE("two ridges that cross are in contact through their edges") {
     const TriangleMesh gutter{.vertices = {{0, 0.1, -1}, {0, 0.1, 1}, {1, 0.6, 0}, {-1, 0.6, 0}},
                               .triangles = {{0, 1, 2}, {0, 3, 1}}};
     const TwoSheets crossing(roof, gutter);
-    CHECK(crossing.total_zone(crossing.edge_pairs(), 0.2) == 1.0);
-    CHECK(crossing.total_zone(crossing.vertex_face_pairs(), 0.2) == 0.0);
+    CHECK(crossing.total_activation(crossing.edge_pairs(), 0.2) == 1.0);
+    CHECK(crossing.total_activation(crossing.vertex_face_pairs(), 0.2) == 0.0);
 }
 
-TEST_CASE("as cloth bends from a ridge to a valley the contact of its edge goes evenly from all of the thickness to none") {
+TEST_CASE("as cloth bends from a ridge to a valley the activation ratio of its edge falls linearly from 1 to 0") {
     const TriangleMesh roof{.vertices = {{-1, 0, 0}, {1, 0, 0}, {0, -0.5, 1}, {0, -0.5, -1}},
                             .triangles = {{0, 2, 1}, {0, 1, 3}}};
     // Its edge crosses that of the roof 0.1 above; its faces fall or rise, the one by less.
-    const auto zone_at = [&](double fall, double other_fall) {
+    const auto activation_distance_at = [&](double fall, double other_fall) {
         const TriangleMesh fold{.vertices = {{0, 0.1, -1}, {0, 0.1, 1}, {0.1, 0.1 + fall, 0}, {-0.1, 0.1 + other_fall, 0}},
                                 .triangles = {{0, 1, 2}, {0, 3, 1}}};
         const TwoSheets crossing(roof, fold);
@@ -127,19 +127,19 @@ TEST_CASE("as cloth bends from a ridge to a valley the contact of its edge goes 
             return p.vertex == std::array<int, 4>{0, 1, 4, 5};
         });
         REQUIRE(middle != pairs.end());
-        return crossing.contact(*middle).relative_zone;
+        return crossing.contact(*middle).activation_ratio;
     };
-    CHECK(zone_at(0.05, 0.05) == 1.0);
-    CHECK(zone_at(0.0, 0.0) == Approx(0.5));
-    CHECK(zone_at(-0.05, -0.05) == 0.0);
-    CHECK(zone_at(0.05, 0.0) == Approx(0.5));
-    const double step = 1e-4, most_change = 0.5 / 0.3 * (step / 0.1) * 1.001;  // 1/2 over a sine of 0.3
-    double before = zone_at(-0.05, -0.05);
+    CHECK(activation_distance_at(0.05, 0.05) == 1.0);
+    CHECK(activation_distance_at(0.0, 0.0) == Approx(0.5));
+    CHECK(activation_distance_at(-0.05, -0.05) == 0.0);
+    CHECK(activation_distance_at(0.05, 0.0) == Approx(0.5));
+    const double step = 1e-4, max_change = 0.5 / 0.3 * (step / 0.1) * 1.001;  // 1/2 over a sine of 0.3
+    double before = activation_distance_at(-0.05, -0.05);
     for (double fall = -0.05 + step; fall < 0.05; fall += step) {
-        const double now = zone_at(fall, fall + 0.001);
+        const double now = activation_distance_at(fall, fall + 0.001);
         CHECK(now >= before);
-        CHECK(now - before <= most_change);
-        CHECK(zone_at(fall + 0.001, fall) == Approx(now));
+        CHECK(now - before <= max_change);
+        CHECK(activation_distance_at(fall + 0.001, fall) == Approx(now));
         before = now;
     }
 }
@@ -152,15 +152,15 @@ TEST_CASE("edges that cross in flat sheets wait for half of the thickness, paral
         const SelfPairContact contact = crossed.contact(pair);
         const bool boundary =
             crossed.surface.edges[pair.feature[0]].triangle[1] < 0 && crossed.surface.edges[pair.feature[1]].triangle[1] < 0;
-        if (!boundary) CHECK(contact.relative_zone <= 0.5 + 1e-9);
-        inner += std::abs(contact.relative_zone - 0.5) < 1e-9;
+        if (!boundary) CHECK(contact.activation_ratio <= 0.5 + 1e-9);
+        inner += std::abs(contact.activation_ratio - 0.5) < 1e-9;
     }
     CHECK(inner > 20);
     const TwoSheets parallel(make_grid(1, 1, 4, 4), moved(make_grid(1, 1, 4, 4), {0, 0.01, 0}));
     for (const SelfPair& pair : parallel.edge_pairs()) {
         const auto &a = parallel.surface.edges[pair.feature[0]].vertex, &b = parallel.surface.edges[pair.feature[1]].vertex;
         const auto& x = parallel.mesh.vertices;
-        if ((x[a[1]] - x[a[0]]).cross(x[b[1]] - x[b[0]]).norm() < 1e-12) CHECK(parallel.contact(pair).relative_zone == 0.0);
+        if ((x[a[1]] - x[a[0]]).cross(x[b[1]] - x[b[0]]).norm() < 1e-12) CHECK(parallel.contact(pair).activation_ratio == 0.0);
     }
 }
 
@@ -177,14 +177,14 @@ TEST_CASE("edges at a small angle are in contact where their ends are too far ap
     REQUIRE(crossing != pairs.end());
     SelfPair pair = *crossing;
     CHECK(sheets.contact(pair).crossing == 0.0);
-    CHECK(sheets.contact(pair).relative_zone == 0.0);
+    CHECK(sheets.contact(pair).activation_ratio == 0.0);
     // Over its length the edge rises by 10 mm: more than a fifth of this thickness.
     pair.thickness = 0.04;
     CHECK(sheets.contact(pair).crossing > 0.2);
-    CHECK(sheets.contact(pair).relative_zone == Approx(0.01 / (0.2 * 0.04) - 1.0).epsilon(1e-3));
+    CHECK(sheets.contact(pair).activation_ratio == Approx(0.01 / (0.2 * 0.04) - 1.0).epsilon(1e-3));
     CHECK(sheets.contact(pair).distance == Approx(gap));
     pair.thickness = 0.02;  // twice that
-    CHECK(sheets.contact(pair).relative_zone == 1.0);
+    CHECK(sheets.contact(pair).activation_ratio == 1.0);
     pair.thickness = 0.06;
     CHECK(sheets.contact(pair).crossing == 0.0);
 }
@@ -196,9 +196,15 @@ TEST_CASE("near a seam the thickness is each corner's there, between them in bet
     const SelfPair face{.vertex = {0, 2, 3, 4}, .thickness = 1.0}, next{.vertex = {0, 5, 3, 2}, .thickness = 1.0};
     const SelfPair edges{.shape = PairShape::edge_edge, .vertex = {0, 1, 2, 3}, .thickness = 1.0};
     using Four = std::array<double, 4>;
-    const auto of_face = [&](const Four& weight) { return thickness_at(face, {of_a[0], of_a[1], of_a[2], no_seam}, weight); };
-    const auto of_next = [&](const Four& weight) { return thickness_at(next, {0.009, of_a[1], of_a[0], no_seam}, weight); };
-    const auto of_edges = [&](const Four& weight) { return thickness_at(edges, {of_a[0], of_a[1], of_b[0], of_b[1]}, weight); };
+    const auto of_face = [&](const Four& weight) {
+        return activation_distance_at(face, {of_a[0], of_a[1], of_a[2], no_seam}, weight);
+    };
+    const auto of_next = [&](const Four& weight) {
+        return activation_distance_at(next, {0.009, of_a[1], of_a[0], no_seam}, weight);
+    };
+    const auto of_edges = [&](const Four& weight) {
+        return activation_distance_at(edges, {of_a[0], of_a[1], of_b[0], of_b[1]}, weight);
+    };
     CHECK(of_face({1, -1, 0, 0}) == of_a[0]);
     CHECK(of_face({1, 0, 0, -1}) == of_a[2]);
     CHECK(of_edges({0, 1, 0, -1}) == of_b[1]);
@@ -210,10 +216,10 @@ TEST_CASE("near a seam the thickness is each corner's there, between them in bet
         const double crossing = of_edges({1 - s, s, t - 1, -t});
         CHECK((crossing > 0.001 && crossing < 0.003));
     }
-    CHECK(thickness_at(face, away_from_seams, {1, -0.3, -0.3, -0.4}) == 1.0);
+    CHECK(activation_distance_at(face, away_from_seams, {1, -0.3, -0.3, -0.4}) == 1.0);
     SelfPair thin = face;
     thin.thickness = 0.0005;
-    CHECK(thickness_at(thin, {of_a[0], of_a[1], of_a[2], no_seam}, {1, 0, 0, -1}) == 0.0005);
+    CHECK(activation_distance_at(thin, {of_a[0], of_a[1], of_a[2], no_seam}, {1, 0, 0, -1}) == 0.0005);
 }
 
 TEST_CASE("a pair moves with its four vertices") {

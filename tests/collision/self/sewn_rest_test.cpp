@@ -33,7 +33,7 @@ double between(const SewnRest& sewn, const std::vector<int>& first, const std::v
 
 }  // namespace
 
-TEST_CASE("features that share a stitched vertex lie nowhere apart, others by the way through the nearest stitch") {
+TEST_CASE("features that share a stitched vertex have distance 0, others that of the path through the nearest stitch") {
     const Sheets sheets;
     const SewnRest sewn = sheets.sewn(Sheets::side());
     CHECK(between(sewn, {4}, {25, 26, 31}) == 0.0);
@@ -47,7 +47,7 @@ TEST_CASE("features that share a stitched vertex lie nowhere apart, others by th
     CHECK(between(sewn, {3}, {8}) == Approx(0.25 + std::sqrt(0.125)));
 }
 
-TEST_CASE("a point of an edge is at every feature that holds the edge, and as far from its ends as its share says") {
+TEST_CASE("a point of an edge is at every feature that holds the edge, and as far from its ends as its share gives") {
     const Sheets sheets;
     const SewnRest sewn = sheets.sewn({{4, 25, 30, 0.2}});
     CHECK(between(sewn, {4}, {25, 30, 31}) == 0.0);
@@ -80,7 +80,7 @@ TEST_CASE("an end of an edge overlaps what is at a point of the edge, and nothin
     CHECK_FALSE(overlap({30}, {3, 8}));
     CHECK_FALSE(overlap({31}, {4, 9}));
     CHECK_FALSE(overlap({40}, {4, 9}));
-    // Of several points the nearest counts, whichever way round the edge is said; what is one vertex with an end is that end.
+    // Of several points the nearest counts, in either direction of the edge; a vertex merged with an end is that end.
     const SewnRest several = sheets.sewn({{4, 25, 30, 0.2}, {9, 30, 25, 0.4}, {14, 25, 30, 0.9}, {40, 30, 30}});
     CHECK(several.overlap(std::vector{25}, std::vector{3, 4}));
     CHECK_FALSE(several.overlap(std::vector{25}, std::vector{8, 9}));
@@ -100,7 +100,7 @@ TEST_CASE("vertices sewn to each other by several stitches are one") {
     CHECK(between(sewn, {1}, {46}) == Approx(0.5));
 }
 
-TEST_CASE("a way may lead through several seams, and none is longer than the reach") {
+TEST_CASE("a path may lead through several seams, and none is longer than the reach") {
     const Sheets sheets;
     const std::vector<Stitch> stitches = {{4, 25, 25}, {26, 45, 45}};
     CHECK(between(sheets.sewn(stitches), {3}, {46}) == Approx(0.75));

@@ -54,7 +54,7 @@ struct TwoSheets {
 
 }  // namespace
 
-TEST_CASE("the ways back are the steepest descent of the length of the curve in which cloth crosses") {
+TEST_CASE("the retreat vectors are the steepest descent of the length of the curve in which cloth crosses") {
     const TwoSheets sheets;
     Vec3 descent = Vec3::Zero();
     for (const EdgeCrossing& crossing : sheets.crossings(sheets.mesh.vertices)) {

@@ -84,7 +84,7 @@ TEST_CASE("the tube of the higher layer goes outside of the lower one, which sta
     CHECK(inside > 50);
 }
 
-TEST_CASE("the other side of a flat tube is nothing to be outside of, and what is out of reach stays") {
+TEST_CASE("the other side of a flat tube has no effect, and cloth beyond the reach stays") {
     // Two sides of a tube 8 mm apart, and a sheet on one of them.
     Tubes tubes;
     TriangleMesh flat = tube(0.1, 0.0, 31);

@@ -55,7 +55,7 @@ TEST_CASE("of triangles that get the same corners one is left, and those that ge
     CHECK(merge(narrow, {{0, 1, 1, 0.0}}).mesh.triangles.size() < narrow.triangles.size());
 }
 
-TEST_CASE("what did not move keeps its gap where that is asked for, what moved has none") {
+TEST_CASE("vertices that did not move keep their gap where that is requested, others have none") {
     const TriangleMesh mesh = two_squares(0.1);
     MergedCloth merged = merge(mesh, {{0, 4, 4, 0.0}, {1, 5, 5, 0.0}});
     merged.mesh.vertices[1] += Vec3(0, 0.3, 0);

@@ -46,18 +46,18 @@ TriangleMesh scaled(TriangleMesh mesh) {
 }
 
 /// Strain and faults of some steps.
-void run_clean(SteppedScene& scene, int steps, double most_strain) {
+void run_clean(SteppedScene& scene, int steps, double max_strain) {
     for (int n = 0; n < steps; ++n) {
         const StepReport report = scene.simulation.step();
         REQUIRE(report.ok());
-        REQUIRE(report.largest_strain < most_strain);
+        REQUIRE(report.largest_strain < max_strain);
         REQUIRE(scene.faults() == 0);
     }
 }
 
 }  // namespace
 
-TEST_CASE("a sheet through a sphere's middle is moved out, told about, and then simulated") {
+TEST_CASE("a sheet through a sphere's middle is moved out, reported, and then simulated") {
     SteppedScene scene(make_grid(1, 1, 25, 25), {.time_step = 1.0 / 60.0, .measure = StepMeasures::all});
     scene.add(make_sphere(0.25, 3), "ball");
     CHECK(scene.faults() > 0);
@@ -124,7 +124,7 @@ TEST_CASE("two obstacles that close on a sheet end the run with both names befor
     CHECK(holds(report.explanation(), {"press", "anvil", "close on the cloth"}));
 }
 
-TEST_CASE("a repair keeps velocities, pins and what is planned for them") {
+TEST_CASE("resolving initial penetration keeps velocities, pins and what is planned for them") {
     SteppedScene scene(make_grid(1, 1, 17, 17), {.time_step = 1.0 / 60.0});
     scene.add(make_sphere(0.2, 2), "ball");
     for (const int v : {0, 16}) scene.simulation.pin(scene.cloth, v);
@@ -141,7 +141,7 @@ TEST_CASE("a repair keeps velocities, pins and what is planned for them") {
     CHECK(scene.simulation.positions(scene.cloth)[16] == scene.mesh.vertices[16]);
 }
 
-TEST_CASE("a start is refused where that is asked for, and where there is no way out, nothing has moved then") {
+TEST_CASE("a start is refused where that is requested, and where there is no exit, and nothing has moved then") {
     const TriangleMesh sheet = make_grid(1, 1, 9, 9);
     const StartRule rule = GENERATE(StartRule::refuse, StartRule::repair);
     SteppedScene scene(sheet, {.time_step = 1.0 / 60.0, .start = rule});
@@ -249,7 +249,7 @@ struct SewnPanels {
 
 }  // namespace
 
-TEST_CASE("a sheet interleaved with another is moved out of it, told about, and then simulated") {
+TEST_CASE("a sheet interleaved with another is moved out of it, reported, and then simulated") {
     TriangleMesh wavy = make_grid(0.4, 0.4, 19, 19);
     for (Vec3& x : wavy.vertices) x.y() = 0.0005 + 0.005 * std::sin(22.0 * x.x()) * std::cos(17.0 * x.z());
     const std::vector<TriangleMesh> sheets = {make_grid(0.4, 0.4, 21, 21), wavy};
@@ -323,7 +323,7 @@ TEST_CASE("a step whose seams close over cloth that cannot come apart is taken b
     REQUIRE(report.ok());
     CHECK(panels.simulation.meets({0}, {0}));
     CHECK(crossings(panels.simulation, {panels.mesh}, panels.stitches) == 0);
-    // What the step measured is of the cloth as it lies now.
+    // The report measures the cloth as it lies now.
     CHECK(report.largest_strain == panels.simulation.largest_strain());
     CHECK(report.energy.total() == Approx(panels.simulation.energy().total()));
 }
@@ -342,7 +342,7 @@ TEST_CASE("panels that are sewn over a ball leave the ball and each other") {
     CHECK(certify(cloth, moved(make_sphere(0.05, 3), {-0.1, -0.04, 0}), 0.1).clean());
 }
 
-TEST_CASE("sewing without contact goes on from a saved state with the same bits, before and after closing") {
+TEST_CASE("sewing without contact continues from a saved state with the same bits, before and after closing") {
     const int saved_after = GENERATE(4, 20);
     SewnPanels whole, resumed;
     whole.run(saved_after);

@@ -17,7 +17,7 @@ TEST_CASE("inside is where a closed surface winds around a point, open ones hold
     CHECK_FALSE(plane.inside({0, -0.1, 0}));
 }
 
-TEST_CASE("the way out ends where the outside begins, not at inner walls") {
+TEST_CASE("the exit is where the outside begins, not at inner walls") {
     const SolidObstacle box(make_box({2, 2, 2}));
     CHECK(*box.exit({0.25, 0, 0}, Vec3::UnitX()) == Approx(0.75));
     CHECK(*box.exit({0.25, 0, 0}, -Vec3::UnitX()) == Approx(1.25));
@@ -31,7 +31,7 @@ TEST_CASE("the way out ends where the outside begins, not at inner walls") {
     CHECK_FALSE(plane.exit({3, -0.2, 0}, Vec3::UnitY()));
 }
 
-TEST_CASE("pushed out points lie at the clearance, by the shortest way, those farther off stay") {
+TEST_CASE("pushed out points lie at the clearance, by the shortest displacement, those farther away stay") {
     const Vec3 size(0.6, 0.8, 1.0);
     const SolidObstacle box(make_box(size));
     Random random(7);

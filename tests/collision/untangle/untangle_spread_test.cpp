@@ -27,7 +27,7 @@ TEST_CASE("distances from fixed vertices run along edges") {
     for (int c = 0; c <= 10; ++c) CHECK(distance[c] == Approx(0.1 * c).margin(1e-12));
 }
 
-TEST_CASE("moves fade out by half the way and stretch little") {
+TEST_CASE("moves fade by half the length along the cloth and stretch little") {
     const Strip strip;
     const TangledCloth cloth = strip.cloth();
     std::vector<bool> core(22, false);

@@ -190,7 +190,7 @@ TEST_CASE("several obstacles, sharp and thin ones") {
     CHECK(c.stretch < 0.5);
 }
 
-TEST_CASE("among heaps of overlapping boxes there is no way out, lone boxes are left by the hundred", "[slow]") {
+TEST_CASE("among heaps of overlapping boxes there is no exit, lone boxes are left by the hundred", "[slow]") {
     Case heap{.cloth = make_grid(1, 1, 17, 17), .obstacles = {}}, rows = heap;
     Random random(3);
     for (int i = 0; i < 500; ++i) {
@@ -210,7 +210,7 @@ TEST_CASE("among heaps of overlapping boxes there is no way out, lone boxes are 
     CHECK(rows.clear());
 }
 
-TEST_CASE("fixed vertices stay, the cloth between them leaves, a fixed vertex inside leaves no way") {
+TEST_CASE("fixed vertices stay, the cloth between them leaves, a fixed vertex inside leaves no exit") {
     Case c{.cloth = make_grid(1, 1, 33, 33), .obstacles = {make_sphere(0.25, 4)}, .fixed = {0, 32, 32 * 33, 33 * 33 - 1}};
     c.solve();
     REQUIRE(c.out);
@@ -237,7 +237,7 @@ TEST_CASE("shallow overlap in very many places is pushed out everywhere at once"
     CHECK(c.largest_move() < 4 * thickness);
 }
 
-TEST_CASE("the same start is repaired to the same bits") {
+TEST_CASE("the same start is untangled to the same bits") {
     Case c{.cloth = turned(make_grid(1, 1, 17, 17), 0.3), .obstacles = {spiky_ball(0.25, 2, 0.3, 3)}};
     c.solve();
     REQUIRE(c.out);

@@ -6,8 +6,8 @@
 namespace percale::test::remake_test {
 namespace {
 
-/// Cloths of every kind, sewn to each other by springs, points and welds. `without`: the cloth that is never there; `fabric`: of
-/// the cloth of number 1.
+/// Cloths of every kind, sewn to each other by springs, points and welds. `without`: the cloth that is left out from the start;
+/// `fabric`: of the cloth of number 1.
 struct Pieces {
     ClothModel model;
     std::vector<Seam> seams;
@@ -59,11 +59,11 @@ struct Pieces {
         const ClothRange &a = model.cloths[first[one]], &b = model.cloths[first[other]];
         for (Stitch& s : stitches) s = {a.index_of(s.vertex), b.index_of(s.from), b.index_of(s.to), s.share};
         Seam seam{.length = {}, .first_weld = weld ? static_cast<int>(model.welds.size()) : -1};
-        append_seam(stitches, 40.0 + one, to_vectors(model.rest), seam, model);
+        append_seam(stitches, 40.0 + one, to_vec3_arrays(model.rest), seam, model);
         seams.push_back(seam);
     }
 
-    /// Gives all that holds something of its own.
+    /// Gives every weld and strain limit a hold of its own.
     void hold() {
         for (std::size_t k = 0; k < model.welds.size(); ++k) model.welds[k].hold = model.rest[model.welds[k].stitch.vertex];
         for (LimitedEdge& edge : model.limits.edges)
@@ -157,7 +157,7 @@ void check_same(const std::vector<Seam>& a, const std::vector<Seam>& b) {
 
 }  // namespace
 
-TEST_CASE("Without a cloth a model is what is built without it, with its seams, hinges, points and all that holds") {
+TEST_CASE("Removing a cloth gives the model that is built without it, with its seams, hinges, points and all holds") {
     for (const int cloth : {0, 1, 2, 3}) {
         CAPTURE(cloth);
         Pieces whole, without(cloth);
@@ -175,7 +175,7 @@ TEST_CASE("Without a cloth a model is what is built without it, with its seams, 
     }
 }
 
-TEST_CASE("With its own fabric a model is made anew as it was") {
+TEST_CASE("A model that is remade with its own fabric is unchanged") {
     for (const int cloth : {0, 1, 2, 3}) {
         CAPTURE(cloth);
         const Pieces whole;
@@ -187,7 +187,7 @@ TEST_CASE("With its own fabric a model is made anew as it was") {
     }
 }
 
-TEST_CASE("With another fabric a model is what is built with it, and vertices are found under their new numbers") {
+TEST_CASE("A model with another fabric is the one that is built with it, and vertices are found under their new numbers") {
     Fabric plain = free_fabric(), tight = Pieces::limited(), hung = Pieces::woven();
     hung.stretch_stiffness = {{300.0, 300.0}};
     for (const Fabric& fabric : {plain, tight, hung}) {
@@ -200,7 +200,7 @@ TEST_CASE("With another fabric a model is what is built with it, and vertices ar
     }
 }
 
-TEST_CASE("What a changed cloth's limits hold with begins anew, what others hold with stays") {
+TEST_CASE("The holds of a changed cloth's limits start from zero, and other holds stay") {
     Pieces whole;
     whole.hold();
     Fabric tight = Pieces::limited();

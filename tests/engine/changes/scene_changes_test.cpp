@@ -23,7 +23,7 @@ TriangleMesh free_mesh(int columns, int rows) {
     return mesh;
 }
 
-/// Three cloths, of which seams join the first two, sewn before the third came; the middle one is of `fabric`.
+/// Three cloths; seams join the first two and were sewn before the third was added; the middle one is of `fabric`.
 struct SewnScene {
     Simulation simulation;
     ClothId left, middle, right;
@@ -44,7 +44,7 @@ struct SewnScene {
     void run(int steps) {
         for (int n = 0; n < steps; ++n) REQUIRE(simulation.step().ok());
     }
-    /// The state of another scene of the same meshes.
+    /// Copies the state of another scene of the same meshes.
     void take(const SewnScene& other) {
         for (const ClothId cloth : {left, middle, right}) {
             const std::vector<Vec3> x = copy(other.simulation.positions(cloth)), v = copy(other.simulation.velocities(cloth));
@@ -72,7 +72,7 @@ std::vector<Fabric> fabrics(bool grid) {
 
 }  // namespace
 
-TEST_CASE("A cloth of another fabric makes the steps of one that was built with it and given its state, in every bit") {
+TEST_CASE("A cloth of another fabric makes the steps of one that was built with it and has its state, in every bit") {
     for (const bool grid : {true, false}) {
         const std::vector<Fabric> all = fabrics(grid);
         for (std::size_t k = 0; k < all.size(); ++k) {
@@ -92,7 +92,7 @@ TEST_CASE("A cloth of another fabric makes the steps of one that was built with 
     }
 }
 
-TEST_CASE("Another fabric leaves every position, velocity and pin where it is, whatever the order inside") {
+TEST_CASE("Another fabric leaves every position, velocity and pin where it is, whatever the internal order") {
     SewnScene scene(free_fabric(), false);
     scene.simulation.keep_previous_positions();
     scene.run(10);
@@ -118,7 +118,7 @@ TEST_CASE("Another fabric leaves every position, velocity and pin where it is, w
     CHECK(s.positions(scene.middle)[5] != x[5]);
 }
 
-TEST_CASE("Cloth of a thicker fabric rises to its own height, cloth of another weight presses with it") {
+TEST_CASE("Cloth of a thicker fabric rises to its own height, and cloth of another weight presses with it") {
     SlopeScene scene(0.3, false);
     scene.run(60);
     const double low = scene.simulation.positions(scene.cloth)[5].y(), press = scene.simulation.force_on(scene.plane).y();
@@ -175,7 +175,7 @@ TEST_CASE("A fabric that the detector cannot have is refused before anything cha
     plane.run(3);
     untouched.run(3);
     Fabric wrong = sheet_fabric();
-    wrong.self_contact = true;  // which a plane's detector does not know
+    wrong.self_contact = true;  // which a plane detector does not support
     wrong.thickness = 0.02;
     CHECK(mentions(scene_error([&] { plane.simulation.set_fabric(plane.cloth, wrong); }), {"self_contact must be false"}));
     const std::vector<ContactLoad> loads = plane.simulation.contact_loads(plane.cloth),
@@ -190,13 +190,13 @@ TEST_CASE("A fabric that the detector cannot have is refused before anything cha
     }
 }
 
-TEST_CASE("Cloth that was removed leaves the steps of a simulation that was given the rest alone, in every bit") {
+TEST_CASE("After a cloth was removed the steps are those of a simulation without it, in every bit") {
     for (const int removed : {0, 1, 2}) {
         CAPTURE(removed);
         SewnScene scene(free_fabric(), false);
         scene.run(removed == 1 ? 0 : 8);
         scene.simulation.remove_cloth({removed});
-        // By the same calls without it.
+        // Made by the same calls without that cloth.
         Simulation never(StepSettings{});
         std::vector<std::array<ClothId, 2>> same;
         if (removed != 0)
@@ -227,7 +227,7 @@ TEST_CASE("Cloth that was removed leaves the steps of a simulation that was give
     }
 }
 
-TEST_CASE("After a cloth was removed the others keep ids, pins, seams and what they look like") {
+TEST_CASE("After a cloth was removed the others keep ids, pins, seams and views") {
     SewnScene scene(free_fabric(), false);
     scene.simulation.keep_previous_positions();
     scene.run(5);
@@ -260,7 +260,7 @@ TEST_CASE("After a cloth was removed the others keep ids, pins, seams and what t
     scene.run(3);
 }
 
-TEST_CASE("An obstacle that nothing touched leaves the steps that would have been without it, asleep and in every bit") {
+TEST_CASE("After removing an obstacle that nothing touched, the steps are those without it, asleep and in every bit") {
     for (const int until : {5, 60}) {
         SlopeScene with(5.0), without(5.0);
         const ObstacleId far = with.simulation.add_obstacle(make_plane(1.0), {.translation = Vec3(0, -3, 0)});
@@ -292,7 +292,7 @@ TEST_CASE("Cloth falls freely when the only obstacle is removed, whatever the co
     }
 }
 
-TEST_CASE("Cloth falls when what it lies on is removed, and what presses on is told by its own id") {
+TEST_CASE("Cloth falls when its support is removed, and what presses it further is reported by its own id") {
     SlopeScene scene(5.0, false);
     Simulation& s = scene.simulation;
     while (!s.step().slept) REQUIRE(s.time() < 20.0);
@@ -306,7 +306,7 @@ TEST_CASE("Cloth falls when what it lies on is removed, and what presses on is t
     CHECK(s.force_on(below).y() < -0.9 * 9.81 * 0.2 * 0.04);
     REQUIRE(s.contact_loads(scene.cloth).size() == 16);
     for (const ContactLoad& load : s.contact_loads(scene.cloth)) CHECK(load.obstacle == below.index);
-    // A step that fails names it, too, and so does a start that is refused.
+    // A failed step names it, too, and so does a refused start.
     s.move_obstacle(below, {.translation = Vec3(0, 300, 0)});
     const StepReport report = s.step();
     REQUIRE_FALSE(report.ok());

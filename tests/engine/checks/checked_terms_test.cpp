@@ -56,7 +56,7 @@ TEST_CASE("All forces pass the check in every step of a disturbed sheet: springs
     }
 }
 
-TEST_CASE("A dented ball under pressure and one of gas pass the check, and it is among the terms") {
+TEST_CASE("A dented ball under pressure and one with gas pass the check, and pressure is among the terms") {
     for (const bool gas : {false, true}) {
         Fabric fabric = moduli_fabric(90.0, 90.0, {}, 0.2);
         if (gas)
@@ -106,7 +106,7 @@ TEST_CASE("Hinges of flat and of curved cloth, and wind, pass the check") {
     }
 }
 
-TEST_CASE("Terms are those that act: contact where there is some, triangles where there are moduli") {
+TEST_CASE("The terms are those that act: contact where there is some, triangles where there are moduli") {
     World world = disturbed_world(woven_fabric());
     plan_step(world);
     REQUIRE(step(world).ok());
@@ -119,7 +119,7 @@ TEST_CASE("Terms are those that act: contact where there is some, triangles wher
     CHECK(names(plain) == std::vector<std::string>{"gravity", "springs", "damped springs", "contact"});
 }
 
-TEST_CASE("A wrong matrix planted in a real term is seen and named by its two vertices") {
+TEST_CASE("A wrong matrix planted in a real term is found and named by its two vertices") {
     World world = disturbed_world(sheet_fabric());
     plan_step(world);
     REQUIRE(step(world).ok());
@@ -131,7 +131,7 @@ TEST_CASE("A wrong matrix planted in a real term is seen and named by its two ve
     const CheckedState state{world.state.cloth.positions, 42, 1e-6, world.scene.settings.time_step};
     CHECK_FALSE(find_wrong_derivative(terms, state).has_value());
     CheckedTerm& springs = terms.at(1);
-    springs.multiply = [right = springs.multiply](const Vectors& d, Vectors& product) {
+    springs.multiply = [right = springs.multiply](const Vec3Arrays& d, Vec3Arrays& product) {
         right(d, product);
         product.add(17, 0.01 * d.at(18));
         product.add(18, 0.01 * d.at(17));
@@ -143,11 +143,11 @@ TEST_CASE("A wrong matrix planted in a real term is seen and named by its two ve
     CHECK(wrong->by_vertex == 18);
 }
 
-TEST_CASE("A step whose derivatives do not fit fails with the state kept, and says where") {
+TEST_CASE("A step whose derivatives do not fit fails with the state kept, and names the place") {
     World world = disturbed_world(woven_fabric());
     plan_step(world);
     const ClothState before = world.state.cloth;
-    // The rest lengths that only the energy of triangles takes.
+    // The rest lengths that only the energy of triangles uses.
     for (double& square : world.scene.model.adjacency.membrane.numbers[0]) square *= 1.01;
     const StepReport report = step(world);
     CHECK(report.status == StepStatus::wrong_derivative);

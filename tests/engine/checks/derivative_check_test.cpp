@@ -14,19 +14,19 @@ constexpr double dt = 0.01;
 struct Chain {
     int count = 40;
     double stiffness = 30.0;
-    double wrong_force = 0.0;   // N, too much on vertex 7
+    double wrong_force = 0.0;   // N, added to vertex 7
     double wrong_matrix = 0.0;  // relative, of the pair 11, 12
 
     CheckedTerm term() const {
         const Chain chain = *this;
         return {.name = "chain",
-                .add_forces = [chain](const Vectors& x, Vectors& forces) { chain.add_forces(x, forces); },
-                .energy = [chain](const Vectors& x) { return chain.energy(x); },
-                .multiply = [chain](const Vectors& d, Vectors& product) { chain.multiply(d, product); },
+                .add_forces = [chain](const Vec3Arrays& x, Vec3Arrays& forces) { chain.add_forces(x, forces); },
+                .energy = [chain](const Vec3Arrays& x) { return chain.energy(x); },
+                .multiply = [chain](const Vec3Arrays& d, Vec3Arrays& product) { chain.multiply(d, product); },
                 .exact = {}};
     }
 
-    void add_forces(const Vectors& x, Vectors& forces) const {
+    void add_forces(const Vec3Arrays& x, Vec3Arrays& forces) const {
         for (int i = 0; i + 1 < count; ++i) {
             const Vec3 force = -stiffness * (x.at(i) - x.at(i + 1));
             forces.add(i, force);
@@ -35,13 +35,13 @@ struct Chain {
         forces.add(7, Vec3(wrong_force, 0.0, 0.0));
     }
 
-    double energy(const Vectors& x) const {
+    double energy(const Vec3Arrays& x) const {
         double sum = 0.0;
         for (int i = 0; i + 1 < count; ++i) sum += 0.5 * stiffness * (x.at(i) - x.at(i + 1)).squaredNorm();
         return sum;
     }
 
-    void multiply(const Vectors& d, Vectors& product) const {
+    void multiply(const Vec3Arrays& d, Vec3Arrays& product) const {
         for (int i = 0; i + 1 < count; ++i) {
             const double factor = i == 11 ? 1.0 + wrong_matrix : 1.0;
             const Vec3 part = factor * dt * dt * stiffness * (d.at(i) - d.at(i + 1));
@@ -53,8 +53,8 @@ struct Chain {
 
 std::optional<WrongDerivative> checked(const std::vector<CheckedTerm>& terms) {
     Random random(4);
-    const Vectors positions = to_vectors(random_points(random, 40, 0.5));
-    return find_wrong_derivative(terms, {.positions = positions, .count = 40, .reach = 1e-6, .dt = dt});
+    const Vec3Arrays positions = to_vec3_arrays(random_points(random, 40, 0.5));
+    return find_wrong_derivative(terms, {.positions = positions, .count = 40, .difference_step = 1e-6, .dt = dt});
 }
 
 }  // namespace
@@ -91,20 +91,20 @@ TEST_CASE("A matrix that is not the derivative is named by the two vertices, unl
     }
 }
 
-TEST_CASE("At a kink, where a term says so, differences of the energy are not held against the force, elsewhere they are") {
+TEST_CASE("At a kink, where a term declares it, differences of the energy are not compared with the force, elsewhere they are") {
     Random random(4);
-    const Vectors places = to_vectors(random_points(random, 40, 0.5));
+    const Vec3Arrays places = to_vec3_arrays(random_points(random, 40, 0.5));
     // E = k/2 max(0, x - c)^2 of each vertex; vertex 3 lies less than a reach beyond its c, vertex 5 has a wrong force.
-    const auto depth = [=](const Vectors& x, int i) { return std::max(0.0, x.x[i] - places.x[i] + (i == 3 ? 2e-7 : 1e-4)); };
+    const auto depth = [=](const Vec3Arrays& x, int i) { return std::max(0.0, x.x[i] - places.x[i] + (i == 3 ? 2e-7 : 1e-4)); };
     const auto term_with = [=](double wrong, int kink) {
         return CheckedTerm{.name = "kinked",
                            .add_forces =
-                               [=](const Vectors& x, Vectors& forces) {
+                               [=](const Vec3Arrays& x, Vec3Arrays& forces) {
                                    for (int i = 0; i < 40; ++i) forces.add(i, Vec3(-30.0 * depth(x, i), 0.0, 0.0));
                                    forces.add(5, Vec3(wrong, 0.0, 0.0));
                                },
                            .energy =
-                               [=](const Vectors& x) {
+                               [=](const Vec3Arrays& x) {
                                    double sum = 0.0;
                                    for (int i = 0; i < 40; ++i) sum += 15.0 * depth(x, i) * depth(x, i);
                                    return sum;
@@ -115,7 +115,8 @@ TEST_CASE("At a kink, where a term says so, differences of the energy are not he
                            .internal = false};
     };
     const auto found = [&](double wrong, int kink) {
-        return find_wrong_derivative({term_with(wrong, kink)}, {.positions = places, .count = 40, .reach = 1e-6, .dt = dt});
+        return find_wrong_derivative({term_with(wrong, kink)},
+                                     {.positions = places, .count = 40, .difference_step = 1e-6, .dt = dt});
     };
     CHECK_FALSE(found(0.0, 3).has_value());
     CHECK(found(0.0, -1).has_value());
@@ -123,7 +124,7 @@ TEST_CASE("At a kink, where a term says so, differences of the energy are not he
     CHECK(found(0.1, 3)->vertex == 5);
 }
 
-TEST_CASE("What a term does not claim is not checked") {
+TEST_CASE("Energies and matrices that a term does not have are not checked") {
     CheckedTerm term = Chain{.wrong_force = 0.3, .wrong_matrix = 1.0}.term();
     term.internal = false;
     term.energy = {};

@@ -6,22 +6,22 @@
 namespace percale::test::contact_loads_test {
 namespace {
 
-struct Rows {
-    ContactRows rows;
+struct Constraints {
+    ContactConstraints constraints;
     ContactTerms terms;
-    std::vector<RowForce> forces;
+    std::vector<ConstraintForce> forces;
 
-    void add(const std::array<int, 4>& vertex, const std::array<double, 4>& weight, int obstacle, const RowForce& force) {
-        add_row(vertex, weight, obstacle, rows);
+    void add(const std::array<int, 4>& vertex, const std::array<double, 4>& weight, int obstacle, const ConstraintForce& force) {
+        add_constraint(vertex, weight, obstacle, constraints);
         forces.push_back(force);
     }
-    std::vector<ContactLoad> loads() const { return contact_loads(rows, terms, forces); }
+    std::vector<ContactLoad> loads() const { return contact_loads(constraints, terms, forces); }
 };
 
 }  // namespace
 
-TEST_CASE("Rows give their vertices their force by weight, summed by vertex and obstacle") {
-    Rows r;
+TEST_CASE("Constraints distribute their force to their vertices by weight, summed by vertex and obstacle") {
+    Constraints r;
     r.add({4, 2, -1, -1}, {0.25, 0.75, 0, 0}, 1, {.normal = 8.0, .friction = Vec3(4, 0, 0)});
     r.add({2, -1, -1, -1}, {1, 0, 0, 0}, 0, {.normal = 1.0});
     r.add({2, -1, -1, -1}, {1, 0, 0, 0}, 1, {.normal = 2.0});
@@ -36,19 +36,19 @@ TEST_CASE("Rows give their vertices their force by weight, summed by vertex and 
     CHECK(loads[2].force() == Vec3(1, 2, 0));
 }
 
-TEST_CASE("Rows between cloths, and rows that do not push, load nothing") {
-    Rows r;
+TEST_CASE("Constraints between cloths, and constraints that do not push, load nothing") {
+    Constraints r;
     r.add({0, 1, 2, 3}, {1, -0.5, -0.25, -0.25}, -1, {.normal = 8.0});
     r.add({0, -1, -1, -1}, {1, 0, 0, 0}, 0, {.normal = 0.0});
     CHECK(r.loads().empty());
 }
 
-TEST_CASE("A load's obstacle point is the mean of what presses its vertex, by normal force") {
-    Rows r;
+TEST_CASE("A load's obstacle point is the mean of the points that press its vertex, weighted by normal force") {
+    Constraints r;
     r.add({4, 2, -1, -1}, {0.25, 0.75, 0, 0}, 1, {.normal = 8.0});
     r.add({2, -1, -1, -1}, {1, 0, 0, 0}, 1, {.normal = 2.0});
     r.add({2, -1, -1, -1}, {1, 0, 0, 0}, 0, {.normal = 5.0});
-    r.rows.obstacle_point = {Vec3(1, 0, 0), Vec3(0, 4, 0), Vec3(0, 0, 3)};
+    r.constraints.obstacle_point = {Vec3(1, 0, 0), Vec3(0, 4, 0), Vec3(0, 0, 3)};
     const std::vector<ContactLoad> loads = r.loads();
     REQUIRE(loads.size() == 3);
     CHECK(loads[0].obstacle_point == Vec3(0, 0, 3));
@@ -56,20 +56,20 @@ TEST_CASE("A load's obstacle point is the mean of what presses its vertex, by no
     CHECK(loads[2].obstacle_point == Vec3(1, 0, 0));
 }
 
-TEST_CASE("Loads of one obstacle are those of all that are with it") {
-    Rows r;
+TEST_CASE("Loads of one obstacle are the loads of all obstacles restricted to it") {
+    Constraints r;
     r.add({4, 2, -1, -1}, {0.25, 0.75, 0, 0}, 1, {.normal = 8.0, .friction = Vec3(4, 0, 0)});
     r.add({2, -1, -1, -1}, {1, 0, 0, 0}, 0, {.normal = 1.0});
     r.add({0, 1, 2, 3}, {1, -0.5, -0.25, -0.25}, -1, {.normal = 8.0});
-    r.terms.touches.clear(8);
+    r.terms.friction_contacts.clear(8);
     for (const int obstacle : {0, 1}) {
-        Touch& touch = r.terms.touches.get(2, obstacle);
-        touch.press = Vec3(0, 3 + obstacle, 0);
-        touch.reach = 1e-4;
-        touch.slip = Vec3(2e-4, 0, 0);
+        FrictionContact& contact = r.terms.friction_contacts.get(2, obstacle);
+        contact.friction_limit = Vec3(0, 3 + obstacle, 0);
+        contact.stick_threshold = 1e-4;
+        contact.slip = Vec3(2e-4, 0, 0);
     }
     for (const int obstacle : {0, 1, 2}) {
-        const std::vector<ContactLoad> loads = contact_loads(r.rows, r.terms, r.forces, obstacle);
+        const std::vector<ContactLoad> loads = contact_loads(r.constraints, r.terms, r.forces, obstacle);
         std::size_t count = 0;
         for (const ContactLoad& load : r.loads()) {
             if (load.obstacle != obstacle) continue;
@@ -81,14 +81,14 @@ TEST_CASE("Loads of one obstacle are those of all that are with it") {
     }
 }
 
-TEST_CASE("Friction that acts on vertices is that of their touches") {
-    Rows r;
+TEST_CASE("Friction on vertices is that of their friction contacts") {
+    Constraints r;
     r.add({3, -1, -1, -1}, {1, 0, 0, 0}, 0, {.normal = 10.0});
-    r.terms.touches.clear(8);
-    Touch& touch = r.terms.touches.get(3, 0);
-    touch.press = Vec3(0, 3, 0);
-    touch.reach = 1e-4;
-    touch.slip = Vec3(2e-4, 0, 0);
+    r.terms.friction_contacts.clear(8);
+    FrictionContact& contact = r.terms.friction_contacts.get(3, 0);
+    contact.friction_limit = Vec3(0, 3, 0);
+    contact.stick_threshold = 1e-4;
+    contact.slip = Vec3(2e-4, 0, 0);
     const std::vector<ContactLoad> loads = r.loads();
     REQUIRE(loads.size() == 1);
     CHECK(loads[0].normal == Vec3(0, 10, 0));

@@ -4,18 +4,18 @@
 
 namespace percale::test::multipliers_test {
 
-TEST_CASE("Contact forces are found again by row, unknown rows have none") {
+TEST_CASE("Contact forces are found again by constraint, unknown constraints have none") {
     ContactMultipliers multipliers;
-    const RowKey unknown{.vertex = {7, -1, -1, -1}, .obstacle = 0, .feature = 3};
+    const ConstraintKey unknown{.vertex = {7, -1, -1, -1}, .obstacle = 0, .feature = 3};
     CHECK(multipliers.of(unknown).normal == 0.0);
     multipliers.clear(1000);
     for (int i = 0; i < 1000; ++i) {
-        const RowKey key{.vertex = {i % 10, i / 10, -1, -1}, .obstacle = i % 2, .feature = i % 3};
+        const ConstraintKey key{.vertex = {i % 10, i / 10, -1, -1}, .obstacle = i % 2, .feature = i % 3};
         multipliers.add(key, {.normal = 1.0 + i, .friction = Vec3(0.0, i, 0.0), .stiffness = 2.0});
     }
     CHECK(multipliers.size() == 1000);
     for (int i = 0; i < 1000; ++i) {
-        const RowKey key{.vertex = {i % 10, i / 10, -1, -1}, .obstacle = i % 2, .feature = i % 3};
+        const ConstraintKey key{.vertex = {i % 10, i / 10, -1, -1}, .obstacle = i % 2, .feature = i % 3};
         REQUIRE(multipliers.of(key).normal == 1.0 + i);
         REQUIRE(multipliers.of(key).friction.y() == i);
     }
@@ -25,20 +25,20 @@ TEST_CASE("Contact forces are found again by row, unknown rows have none") {
     CHECK(multipliers.of({.vertex = {1, 0, -1, -1}, .obstacle = 1, .feature = 1}).normal == 0.0);
 }
 
-TEST_CASE("Rows of the same cloth features are told apart by obstacle and by its feature") {
-    ContactRows rows;
+TEST_CASE("Constraints of the same cloth features are distinguished by obstacle and by its feature") {
+    ContactConstraints constraints;
     for (int i = 0; i < 3; ++i) {
-        rows.vertex.push_back({4, 5, -1, -1});
-        rows.obstacle.push_back(i == 1);
-        rows.feature.push_back(i == 2);
+        constraints.vertex.push_back({4, 5, -1, -1});
+        constraints.obstacle.push_back(i == 1);
+        constraints.feature.push_back(i == 2);
     }
-    CHECK_FALSE(row_key(rows, 0) == row_key(rows, 1));
-    CHECK_FALSE(row_key(rows, 0) == row_key(rows, 2));
-    CHECK(row_key(rows, 0) == RowKey{.vertex = {4, 5, -1, -1}, .obstacle = 0, .feature = 0});
+    CHECK_FALSE(constraint_key(constraints, 0) == constraint_key(constraints, 1));
+    CHECK_FALSE(constraint_key(constraints, 0) == constraint_key(constraints, 2));
+    CHECK(constraint_key(constraints, 0) == ConstraintKey{.vertex = {4, 5, -1, -1}, .obstacle = 0, .feature = 0});
 }
 
-TEST_CASE("All forces are told in the order of their keys, and another table takes them") {
-    const auto key = [](int i) { return RowKey{.vertex = {i % 5, i, -1, -1}, .obstacle = 0, .feature = i % 3}; };
+TEST_CASE("All forces are listed in the order of their keys, and another table accepts them") {
+    const auto key = [](int i) { return ConstraintKey{.vertex = {i % 5, i, -1, -1}, .obstacle = 0, .feature = i % 3}; };
     ContactMultipliers first, roomy, copy;
     first.clear(20);
     roomy.clear(500);
@@ -56,49 +56,50 @@ TEST_CASE("All forces are told in the order of their keys, and another table tak
     CHECK(copy.of(key(20)).normal == 0.0);
 }
 
-TEST_CASE("A force goes on to the nearest row of its cloth feature when its own is gone or has left") {
+TEST_CASE("A force moves on to the nearest constraint of its cloth feature when its own is gone or has left") {
     constexpr double h = 0.005;
-    constexpr RowClearance clearance{.zone = 1.2, .share = 1e-3};
-    ContactRows rows;
-    const auto add_row = [&](int vertex, int obstacle, int feature, double distance, const Vec3& direction = Vec3(0, 1, 0)) {
-        rows.vertex.push_back({vertex, vertex + 1, -1, -1});
-        rows.obstacle.push_back(obstacle);
-        rows.feature.push_back(feature);
-        rows.distance.push_back(distance);
-        rows.thickness.push_back(clearance.zone * h);
-        rows.share.push_back(1.0);
-        rows.direction.push_back(direction);
+    constexpr ConstraintClearance clearance{.activation_ratio = 1.2, .ratio = 1e-3};
+    ContactConstraints constraints;
+    const auto add_constraint = [&](int vertex, int obstacle, int feature, double distance,
+                                    const Vec3& direction = Vec3(0, 1, 0)) {
+        constraints.vertex.push_back({vertex, vertex + 1, -1, -1});
+        constraints.obstacle.push_back(obstacle);
+        constraints.feature.push_back(feature);
+        constraints.distance.push_back(distance);
+        constraints.thickness.push_back(clearance.activation_ratio * h);
+        constraints.mollifier.push_back(1.0);
+        constraints.direction.push_back(direction);
     };
     const auto key = [](int vertex, int obstacle, int feature) {
-        return RowKey{.vertex = {vertex, vertex + 1, -1, -1}, .obstacle = obstacle, .feature = feature};
+        return ConstraintKey{.vertex = {vertex, vertex + 1, -1, -1}, .obstacle = obstacle, .feature = feature};
     };
     ContactMultipliers multipliers;
     multipliers.clear(10);
-    const auto push = [&](const RowKey& row, double force) {
-        multipliers.add(row, {.normal = force, .friction = Vec3(0.1 * force, 0, 0)});
+    const auto push = [&](const ConstraintKey& constraint, double force) {
+        multipliers.add(constraint, {.normal = force, .friction = Vec3(0.1 * force, 0, 0)});
     };
-    // Left behind for a nearer row, which has a force already; one vertex further the nearer lies on another obstacle.
-    add_row(0, 0, 1, 1.01 * h);
-    add_row(0, 0, 2, 0.99 * h);
-    add_row(2, 0, 1, 1.01 * h);
-    add_row(2, 1, 2, 0.99 * h);
+    // Left for a nearer constraint that has a force already; one vertex further the nearer one is with another obstacle.
+    add_constraint(0, 0, 1, 1.01 * h);
+    add_constraint(0, 0, 2, 0.99 * h);
+    add_constraint(2, 0, 1, 1.01 * h);
+    add_constraint(2, 1, 2, 0.99 * h);
     push(key(0, 0, 1), 3.0);
     push(key(0, 0, 2), 2.0);
     push(key(2, 0, 1), 5.0);
-    // Two that rest, one of them a little farther off; two sides of a gap.
-    add_row(4, 0, 1, 1.0009 * h);
-    add_row(4, 0, 2, h);
-    add_row(6, 0, 1, 1.1 * h);
-    add_row(6, 0, 2, h, Vec3(0, -1, 0));
+    // Two at rest, one of them a little farther off; two sides of a gap.
+    add_constraint(4, 0, 1, 1.0009 * h);
+    add_constraint(4, 0, 2, h);
+    add_constraint(6, 0, 1, 1.1 * h);
+    add_constraint(6, 0, 2, h, Vec3(0, -1, 0));
     push(key(4, 0, 1), 7.0);
     push(key(6, 0, 1), 11.0);
-    // Gone, with another row of the feature and without; the nearest is nearly parallel.
-    add_row(8, 0, 2, 1.15 * h);
-    add_row(8, 0, 3, 1.1 * h);
-    rows.share.back() = 0.1;
+    // Gone, with another constraint of the feature and without; the nearest is nearly parallel.
+    add_constraint(8, 0, 2, 1.15 * h);
+    add_constraint(8, 0, 3, 1.1 * h);
+    constraints.mollifier.back() = 0.1;
     push(key(8, 0, 1), 13.0);
     push(key(10, 0, 1), 17.0);
-    multipliers.hand_over(rows, clearance);
+    multipliers.transfer(constraints, clearance);
     CHECK(multipliers.of(key(0, 0, 1)).normal == 0.0);
     CHECK(multipliers.of(key(0, 0, 2)).normal == 5.0);
     CHECK(multipliers.of(key(0, 0, 2)).friction.x() == Approx(0.5));
@@ -111,15 +112,15 @@ TEST_CASE("A force goes on to the nearest row of its cloth feature when its own 
     CHECK(multipliers.of(key(10, 0, 1)).normal == 17.0);
 }
 
-TEST_CASE("Forces that are handed to one row have the same sum in whatever order they came") {
-    ContactRows rows;
-    rows.vertex = {{0, 1, -1, -1}};
-    rows.obstacle = {0};
-    rows.feature = {9};
-    rows.distance = {0.004};
-    rows.thickness = {0.006};
-    rows.share = {1.0};
-    rows.direction = {Vec3(0, 1, 0)};
+TEST_CASE("Forces that move on to one constraint have the same sum in whatever order they were added") {
+    ContactConstraints constraints;
+    constraints.vertex = {{0, 1, -1, -1}};
+    constraints.obstacle = {0};
+    constraints.feature = {9};
+    constraints.distance = {0.004};
+    constraints.thickness = {0.006};
+    constraints.mollifier = {1.0};
+    constraints.direction = {Vec3(0, 1, 0)};
     const double forces[] = {0.1, 0.2, 0.3, 1e-17, 0.7};
     ContactMultipliers up, down;
     up.clear(5);
@@ -128,26 +129,27 @@ TEST_CASE("Forces that are handed to one row have the same sum in whatever order
         up.add({.vertex = {0, 1, -1, -1}, .obstacle = 0, .feature = i}, {.normal = forces[i]});
         down.add({.vertex = {0, 1, -1, -1}, .obstacle = 0, .feature = 4 - i}, {.normal = forces[4 - i]});
     }
-    for (ContactMultipliers* multipliers : {&up, &down}) multipliers->hand_over(rows, {.zone = 1.2, .share = 1e-3});
+    for (ContactMultipliers* multipliers : {&up, &down})
+        multipliers->transfer(constraints, {.activation_ratio = 1.2, .ratio = 1e-3});
     REQUIRE(up.size() == 1);
-    CHECK(up.of(row_key(rows, 0)).normal == down.of(row_key(rows, 0)).normal);
-    CHECK(up.of(row_key(rows, 0)).normal == Approx(1.3));
+    CHECK(up.of(constraint_key(constraints, 0)).normal == down.of(constraint_key(constraints, 0)).normal);
+    CHECK(up.of(constraint_key(constraints, 0)).normal == Approx(1.3));
 }
 
-TEST_CASE("Between cloths a force stays with its row") {
-    ContactRows rows;
-    rows.vertex = {{0, 1, 2, 3}};
-    rows.obstacle = {-1};
-    rows.feature = {2};
-    rows.distance = {0.004};
-    rows.thickness = {0.006};
-    rows.share = {1.0};
-    rows.direction = {Vec3(0, 1, 0)};
+TEST_CASE("Between cloths a force stays with its constraint") {
+    ContactConstraints constraints;
+    constraints.vertex = {{0, 1, 2, 3}};
+    constraints.obstacle = {-1};
+    constraints.feature = {2};
+    constraints.distance = {0.004};
+    constraints.thickness = {0.006};
+    constraints.mollifier = {1.0};
+    constraints.direction = {Vec3(0, 1, 0)};
     ContactMultipliers multipliers;
     multipliers.clear(1);
-    const RowKey other{.vertex = {0, 1, 2, 3}, .obstacle = -1, .feature = 1};
+    const ConstraintKey other{.vertex = {0, 1, 2, 3}, .obstacle = -1, .feature = 1};
     multipliers.add(other, {.normal = 2.0});
-    multipliers.hand_over(rows, {.zone = 1.2, .share = 1e-3});
+    multipliers.transfer(constraints, {.activation_ratio = 1.2, .ratio = 1e-3});
     CHECK(multipliers.of(other).normal == 2.0);
 }
 

@@ -25,38 +25,38 @@ double energy(const SolverScene& scene) {
     return sum;
 }
 
-/// One vertex in contact with the plane y = 0, whose step matrix is `inertia` kg.
-struct OneRow {
+/// One vertex in contact with the plane y = 0; its step matrix is `inertia` kg.
+struct OneConstraint {
     static constexpr double dt = 0.01, inertia = 2.0, mu = 0.4;
-    ContactRows rows;
+    ContactConstraints constraints;
     DiagonalBlocks diagonal;
-    Vectors velocities, total;
+    Vec3Arrays velocities, total;
     ContactTerms terms;
-    std::vector<RowForce> forces;
+    std::vector<ConstraintForce> forces;
     double potential = 0.0;
     ProjectedContact projection;
-    ContactMemory memory;
+    ContactWarmStart warm_start;
 
-    explicit OneRow(double distance, const Vec3& velocity = Vec3::Zero()) {
+    explicit OneConstraint(double distance, const Vec3& velocity = Vec3::Zero()) {
         diagonal.resize(16);
         for (const int entry : {0, 3, 5}) diagonal.data[16 * entry] = inertia;
         velocities.resize(1);
         velocities.set(0, velocity);
-        rows.vertex = {{0, -1, -1, -1}};
-        rows.weight = {{1.0, 0.0, 0.0, 0.0}};
-        rows.direction = {Vec3(0.0, 1.0, 0.0)};
-        rows.obstacle_point = rows.obstacle_displacement = {Vec3::Zero()};
-        rows.distance = {distance};
-        rows.thickness = {projection_zone * h};
-        rows.friction = {mu};
-        rows.share = {1.0};
-        rows.obstacle = rows.feature = {0};
-        projection.end({}, {}, {}, memory);  // nothing was nearer than the thickness before
-        projection.begin(memory);
+        constraints.vertex = {{0, -1, -1, -1}};
+        constraints.weight = {{1.0, 0.0, 0.0, 0.0}};
+        constraints.direction = {Vec3(0.0, 1.0, 0.0)};
+        constraints.obstacle_point = constraints.obstacle_displacement = {Vec3::Zero()};
+        constraints.distance = {distance};
+        constraints.thickness = {projection_activation_ratio * h};
+        constraints.friction = {mu};
+        constraints.mollifier = {1.0};
+        constraints.obstacle = constraints.feature = {0};
+        projection.end({}, {}, {}, warm_start);  // min_distance is the thickness
+        projection.begin(warm_start);
     }
 
     ContactPoint point() const {
-        return {.rows = rows,
+        return {.constraints = constraints,
                 .positions = velocities,
                 .velocities = velocities,
                 .step = {.dt = dt, .obstacle_rate = 1.0 / dt, .mass = nullptr, .diagonal = &diagonal}};
@@ -67,119 +67,120 @@ struct OneRow {
         projection.evaluate(point(), result());
     }
     void advance() { projection.correct(point(), result(), 0.0); }
-    void keep() { projection.end(rows, {}, forces, memory); }
+    void keep() { projection.end(constraints, {}, forces, warm_start); }
 };
 
 }  // namespace
 
-TEST_CASE("A projected row's push is minus the derivative of its energy and its matrix that of its push") {
-    const double taken = GENERATE(1.0, 0.3);  // ContactRows::share
-    for (const double share : {0.2, 0.45, 0.55, 0.9, 1.02, 1.15}) {
-        CAPTURE(share, taken);
+TEST_CASE("A projected constraint's normal force is minus the derivative of its energy, and its matrix that of its force") {
+    const double taken = GENERATE(1.0, 0.3);  // ContactConstraints::mollifier
+    for (const double mollifier : {0.2, 0.45, 0.55, 0.9, 1.02, 1.15}) {
+        CAPTURE(mollifier, taken);
         const double step = 1e-7 * h;
-        OneRow low(share * h - step), middle(share * h), high(share * h + step);
-        for (OneRow* row : {&low, &middle, &high}) {
-            const double distance = row->rows.distance[0];
-            row->rows.share = {taken};
-            row->rows.distance[0] = 0.93 * h;  // a multiplier from elsewhere
-            row->add();
-            row->advance();
-            row->rows.distance[0] = distance;
-            row->add();
+        OneConstraint low(mollifier * h - step), middle(mollifier * h), high(mollifier * h + step);
+        for (OneConstraint* constraint : {&low, &middle, &high}) {
+            const double distance = constraint->constraints.distance[0];
+            constraint->constraints.mollifier = {taken};
+            constraint->constraints.distance[0] = 0.93 * h;  // a multiplier from elsewhere
+            constraint->add();
+            constraint->advance();
+            constraint->constraints.distance[0] = distance;
+            constraint->add();
         }
         const double push = middle.forces[0].normal;
         CHECK(middle.total.at(0).y() == Approx(push));
-        const double zone = 2.0 * step * std::max(push, 1.0);
-        CHECK(low.terms.energy - high.terms.energy == Approx(2.0 * step * push).margin(1e-4 * zone));
+        const double activation_ratio = 2.0 * step * std::max(push, 1.0);
+        CHECK(low.terms.energy - high.terms.energy == Approx(2.0 * step * push).margin(1e-4 * activation_ratio));
         const double slope = (low.forces[0].normal - high.forces[0].normal) / (2.0 * step);
-        const double entry = push > 0.0 ? middle.terms.blocks.at(0).k[3] / (OneRow::dt * OneRow::dt) : 0.0;
+        const double entry = push > 0.0 ? middle.terms.blocks.at(0).k[3] / (OneConstraint::dt * OneConstraint::dt) : 0.0;
         CHECK(slope == Approx(entry).epsilon(1e-4));
     }
 }
 
-TEST_CASE("A projected row sticks inside Coulomb's cone and slides on it against the slip") {
+TEST_CASE("A projected constraint sticks inside Coulomb's cone and slides on it against the slip") {
     for (const double speed : {1e-4, 1e-2, 10.0}) {
-        OneRow row(0.9 * h, Vec3(0.6 * speed, 0.0, 0.8 * speed));
-        row.add();
-        const double stiffness = row.forces[0].stiffness, limit = OneRow::mu * row.forces[0].normal;
-        const double damped = stiffness * OneRow::dt * speed;
+        OneConstraint constraint(0.9 * h, Vec3(0.6 * speed, 0.0, 0.8 * speed));
+        constraint.add();
+        const double stiffness = constraint.forces[0].stiffness, limit = OneConstraint::mu * constraint.forces[0].normal;
+        const double damped = stiffness * OneConstraint::dt * speed;
         CAPTURE(speed, limit, damped);
-        CHECK((row.forces[0].friction + std::min(damped, limit) * Vec3(0.6, 0.0, 0.8)).norm() < 1e-9 * limit);
+        CHECK((constraint.forces[0].friction + std::min(damped, limit) * Vec3(0.6, 0.0, 0.8)).norm() < 1e-9 * limit);
     }
 }
 
-TEST_CASE("A force that went on to another row of its cloth feature lasts there") {
-    OneRow row(0.95 * h);
-    row.add();
-    const double push = row.forces[0].normal;
-    for (int part = 0; part < 2; ++part) row.keep();
-    row.rows.feature = {1};
-    row.rows.distance = {h};
+TEST_CASE("A force that moved on to another constraint of its cloth feature lasts there") {
+    OneConstraint constraint(0.95 * h);
+    constraint.add();
+    const double push = constraint.forces[0].normal;
+    for (int part = 0; part < 2; ++part) constraint.keep();
+    constraint.constraints.feature = {1};
+    constraint.constraints.distance = {h};
     for (int part = 0; part < 2; ++part) {
-        row.projection.begin(row.memory);
-        row.projection.meet(row.rows);
-        row.add();
-        CHECK(row.forces[0].normal == Approx(push));
-        row.keep();
+        constraint.projection.begin(constraint.warm_start);
+        constraint.projection.set_constraints(constraint.constraints);
+        constraint.add();
+        CHECK(constraint.forces[0].normal == Approx(push));
+        constraint.keep();
     }
 }
 
-TEST_CASE("Rows that push one vertex as the step begins share its stiffness, others do not count") {
+TEST_CASE("Constraints that push one vertex as the step begins share its stiffness, others do not count") {
     const auto stiffness = [](double second_distance, double second_share) {
-        OneRow row(0.95 * h);
-        ContactRows& rows = row.rows;
-        for (auto* numbers : {&rows.thickness, &rows.friction, &rows.share, &rows.distance}) numbers->push_back(numbers->front());
-        for (auto* vectors : {&rows.direction, &rows.obstacle_point, &rows.obstacle_displacement})
+        OneConstraint constraint(0.95 * h);
+        ContactConstraints& constraints = constraint.constraints;
+        for (auto* numbers : {&constraints.thickness, &constraints.friction, &constraints.mollifier, &constraints.distance})
+            numbers->push_back(numbers->front());
+        for (auto* vectors : {&constraints.direction, &constraints.obstacle_point, &constraints.obstacle_displacement})
             vectors->push_back(vectors->front());
-        rows.vertex.push_back(rows.vertex[0]);
-        rows.weight.push_back(rows.weight[0]);
-        rows.obstacle = {0, 0};
-        rows.feature = {0, 1};
-        rows.distance[1] = second_distance;
-        rows.share[1] = second_share;
-        row.projection.meet(rows);
-        row.add();
-        return row.forces[0].stiffness;
+        constraints.vertex.push_back(constraints.vertex[0]);
+        constraints.weight.push_back(constraints.weight[0]);
+        constraints.obstacle = {0, 0};
+        constraints.feature = {0, 1};
+        constraints.distance[1] = second_distance;
+        constraints.mollifier[1] = second_share;
+        constraint.projection.set_constraints(constraints);
+        constraint.add();
+        return constraint.forces[0].stiffness;
     };
     CHECK(stiffness(0.95 * h, 1.0) == Approx(0.5 * stiffness(1.05 * h, 1.0)));
     CHECK(stiffness(0.95 * h, 0.5) == Approx(stiffness(1.05 * h, 1.0) / 1.5));
-    OneRow alone(0.95 * h);
+    OneConstraint alone(0.95 * h);
     alone.add();
     CHECK(stiffness(1.05 * h, 1.0) == Approx(alone.forces[0].stiffness));
 }
 
-TEST_CASE("Multipliers match where rows are at the thickness without slip") {
-    OneRow row(0.95 * h);
-    row.add();
-    const double push = row.forces[0].normal;
-    CHECK(row.projection.mismatch(row.rows, row.forces) == Approx(0.05 * h));
-    row.advance();
-    CHECK(row.forces[0].normal == Approx(2.0 * push));
-    CHECK(row.total.at(0).y() == Approx(2.0 * push));
-    row.rows.distance = {h};
-    row.add();
-    CHECK(row.forces[0].normal == Approx(push));
-    CHECK(row.projection.mismatch(row.rows, row.forces) < 1e-12);
+TEST_CASE("Multipliers match where constraints are at the thickness without slip") {
+    OneConstraint constraint(0.95 * h);
+    constraint.add();
+    const double push = constraint.forces[0].normal;
+    CHECK(constraint.projection.mismatch(constraint.constraints, constraint.forces) == Approx(0.05 * h));
+    constraint.advance();
+    CHECK(constraint.forces[0].normal == Approx(2.0 * push));
+    CHECK(constraint.total.at(0).y() == Approx(2.0 * push));
+    constraint.constraints.distance = {h};
+    constraint.add();
+    CHECK(constraint.forces[0].normal == Approx(push));
+    CHECK(constraint.projection.mismatch(constraint.constraints, constraint.forces) < 1e-12);
 }
 
-TEST_CASE("A step begins with contact forces that lasted for two spans") {
-    OneRow row(0.95 * h);
-    row.add();
-    const double push = row.forces[0].normal;
-    row.keep();
-    row.rows.distance = {h};
-    row.projection.begin(row.memory);
-    row.add();
-    CHECK(row.forces[0].normal == 0.0);
-    row.forces[0].normal = 3.0 * push;
-    row.keep();
-    row.projection.begin(row.memory);
-    row.add();
-    CHECK(row.forces[0].normal == Approx(push));
-    row.memory.forget();
-    row.projection.begin(row.memory);
-    row.add();
-    CHECK(row.forces[0].normal == 0.0);
+TEST_CASE("A step begins with contact forces that lasted for two substeps") {
+    OneConstraint constraint(0.95 * h);
+    constraint.add();
+    const double push = constraint.forces[0].normal;
+    constraint.keep();
+    constraint.constraints.distance = {h};
+    constraint.projection.begin(constraint.warm_start);
+    constraint.add();
+    CHECK(constraint.forces[0].normal == 0.0);
+    constraint.forces[0].normal = 3.0 * push;
+    constraint.keep();
+    constraint.projection.begin(constraint.warm_start);
+    constraint.add();
+    CHECK(constraint.forces[0].normal == Approx(push));
+    constraint.warm_start.forget();
+    constraint.projection.begin(constraint.warm_start);
+    constraint.add();
+    CHECK(constraint.forces[0].normal == 0.0);
 }
 
 TEST_CASE("Projected cloth that fell on a plane rests at the thickness") {
@@ -243,7 +244,7 @@ TEST_CASE("On an incline flatter than friction's angle projected cloth does not 
         CAPTURE(mu, (after - before).norm(), (scene.state.positions.at(5) - after).norm(), mean_velocity(scene).norm());
         CHECK(mean_velocity(scene).norm() < 1e-9);
         CHECK((scene.state.positions.at(5) - after).norm() < 1e-9);
-        CHECK((after - before).norm() < 1e-4);  // until the friction is found
+        CHECK((after - before).norm() < 1e-4);  // until the friction forces are found
     }
 }
 

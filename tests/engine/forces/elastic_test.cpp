@@ -38,7 +38,7 @@ SewnPanels::SewnPanels(Scheme scheme, double dt)
 
 }  // namespace
 
-TEST_CASE("The energy ledger closes with membranes, hinges, seams, wind and pins that are let go, in every scheme", "[law]") {
+TEST_CASE("The energy ledger closes with membranes, hinges, seams, wind and released pins, in every scheme", "[law]") {
     for (const Scheme scheme : all_schemes) {
         const double dt = facts_of(scheme).implicit ? 1.0 / 120.0 : 1e-4;
         SewnPanels panels(scheme, dt);
@@ -60,23 +60,24 @@ TEST_CASE("The energy ledger closes with membranes, hinges, seams, wind and pins
     }
 }
 
-TEST_CASE("What the force of a flat hinge at the end takes is the energy of the move itself") {
+TEST_CASE("The loss of a flat hinge whose force is taken at the end is the energy of the move itself") {
     const ClothModel model = bending_model(make_grid(0.3, 0.3, 6, 6));
     Random random(3);
     const std::vector<Vec3> start = random_points(random, 36, 0.3), end = random_points(random, 36, 0.3);
     std::vector<Vec3> move;
     for (int i = 0; i < 36; ++i) move.push_back(end[i] - start[i]);
     ElasticSpace space;
-    const Vectors from = to_vectors(start), to = to_vectors(end);
+    const Vec3Arrays from = to_vec3_arrays(start), to = to_vec3_arrays(end);
     CHECK(shape_loss(compute, model, {from, to, to, {}}, space) ==
-          Approx(hinge_energy(model.hinges, to_vectors(move))).epsilon(1e-9));
+          Approx(hinge_energy(model.hinges, to_vec3_arrays(move))).epsilon(1e-9));
     CHECK(shape_loss(compute, model, {from, to, from, {}}, space) ==
-          Approx(-hinge_energy(model.hinges, to_vectors(move))).epsilon(1e-9));
+          Approx(-hinge_energy(model.hinges, to_vec3_arrays(move))).epsilon(1e-9));
 }
 
 TEST_CASE("Cloth of raw springs has no loss of shapes") {
     const ClothModel model = cloth_model(make_grid(0.3, 0.3, 4, 4), sheet_fabric());
-    const Vectors start = to_vectors(make_grid(0.4, 0.4, 4, 4).vertices), end = to_vectors(make_grid(0.2, 0.2, 4, 4).vertices);
+    const Vec3Arrays start = to_vec3_arrays(make_grid(0.4, 0.4, 4, 4).vertices),
+                     end = to_vec3_arrays(make_grid(0.2, 0.2, 4, 4).vertices);
     ElasticSpace space;
     CHECK(shape_loss(compute, model, {start, end, end, {}}, space) == 0.0);
 }

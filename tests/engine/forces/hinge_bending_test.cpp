@@ -26,15 +26,15 @@ ClothModel hinges_alone(const TriangleMesh& mesh) {
 
 struct Evaluated {
     double energy = 0.0;
-    Vectors forces;
+    Vec3Arrays forces;
     SpringTerms terms;
 };
 
-Evaluated evaluate(const ClothModel& model, const Vectors& positions) {
+Evaluated evaluate(const ClothModel& model, const Vec3Arrays& positions) {
     Evaluated result;
     StepSprings springs;
     set_step_springs(compute, {model.adjacency, positions, DampingForm::velocity, dt}, springs);
-    Vectors still;
+    Vec3Arrays still;
     still.resize(model.vertex_count());
     result.forces.resize(model.vertex_count());
     result.energy = evaluate_springs(compute, springs, {positions, still, dt}, true, result.forces, result.terms);
@@ -56,7 +56,7 @@ TEST_CASE("The energy of pairs and curved hinges is the hinges' energy, and forc
         const ClothModel model = hinges_alone(mesh);
         const std::vector<Vec3> points = shaken(model.rest, 0.02, 5),
                                 way = shaken(std::vector<Vec3>(points.size(), Vec3::Zero()), 1.0, 6);
-        const Vectors x = to_vectors(points);
+        const Vec3Arrays x = to_vec3_arrays(points);
         const Evaluated here = evaluate(model, x);
         CHECK(here.energy == Approx(hinge_energy(model.hinges, x)).epsilon(1e-9));
         CHECK(here.energy > 0.0);
@@ -66,20 +66,20 @@ TEST_CASE("The energy of pairs and curved hinges is the hinges' energy, and forc
             size += here.forces.at(static_cast<int>(i)).norm();
         }
         const double h = 1e-6;
-        Vectors ahead = x, behind = x;
-        add_scaled(ahead, h, to_vectors(way));
-        add_scaled(behind, -h, to_vectors(way));
+        Vec3Arrays ahead = x, behind = x;
+        add_scaled(ahead, h, to_vec3_arrays(way));
+        add_scaled(behind, -h, to_vec3_arrays(way));
         const double difference = (hinge_energy(model.hinges, ahead) - hinge_energy(model.hinges, behind)) / (2.0 * h);
         CHECK(difference == Approx(slope).margin(1e-6 * size));
     }
 }
 
-TEST_CASE("A curved rest shape is at rest, opened or closed it is not") {
+TEST_CASE("A curved rest shape is at rest, and has energy when opened or closed") {
     const ClothModel model = hinges_alone(make_sphere(0.3, 1));
     REQUIRE(model.hinges.curved.size() == model.hinges.all.size());
-    // An icosahedron's dihedral angle, 138.19 degrees, shared out by one subdivision.
+    // The dihedral angle of an icosahedron, 138.19 degrees, distributed by one subdivision.
     for (const Hinge& hinge : model.hinges.all) CHECK(std::abs(hinge.rest_angle) == Approx(0.353).margin(0.04));
-    const Evaluated rest = evaluate(model, to_vectors(model.rest));
+    const Evaluated rest = evaluate(model, to_vec3_arrays(model.rest));
     CHECK(std::abs(rest.energy) < 1e-16);
     CHECK(std::sqrt(dot(compute, rest.forces, rest.forces)) < 1e-13);
     // Turned inside out every angle has the other sign.
@@ -90,11 +90,11 @@ TEST_CASE("A curved rest shape is at rest, opened or closed it is not") {
     CHECK(bending_energy(model, mirrored) == Approx(expected).epsilon(1e-9));
 }
 
-TEST_CASE("Forces of hinges neither push nor turn a cloth as a whole") {
+TEST_CASE("Forces of hinges have no sum and no moment on a cloth as a whole") {
     for (const TriangleMesh& mesh : some_meshes()) {
         const ClothModel model = hinges_alone(mesh);
         const std::vector<Vec3> points = shaken(model.rest, 0.03, 9);
-        const Evaluated here = evaluate(model, to_vectors(points));
+        const Evaluated here = evaluate(model, to_vec3_arrays(points));
         Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
         double size = 0.0;
         for (int i = 0; i < model.vertex_count(); ++i) {
@@ -110,7 +110,7 @@ TEST_CASE("Forces of hinges neither push nor turn a cloth as a whole") {
 TEST_CASE("The matrix of flat hinges is the exact one, positive semidefinite and the same everywhere") {
     for (const TriangleMesh& mesh : {make_grid(0.5, 0.4, 5, 4), equilateral_sheet(0.1, 4, 5)}) {
         const ClothModel model = hinges_alone(mesh);
-        const Vectors x = to_vectors(shaken(model.rest, 0.05, 2)), flat = to_vectors(model.rest);
+        const Vec3Arrays x = to_vec3_arrays(shaken(model.rest, 0.05, 2)), flat = to_vec3_arrays(model.rest);
         const Evaluated here = evaluate(model, x);
         const int count = model.vertex_count();
         Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count, count);

@@ -51,7 +51,7 @@ Eigen::Matrix2d some_gradient() {
     return gradient;
 }
 
-double least_eigenvalue(const Eigen::MatrixXd& m) {
+double min_eigenvalue(const Eigen::MatrixXd& m) {
     return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(m, Eigen::EigenvaluesOnly).eigenvalues()[0];
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("Forces are minus the slope of the energy, which both ways of summing 
     const double h = 1e-5;
     for (int i = 0; i < sheet.model.vertex_count(); ++i) {
         for (int axis = 0; axis < 3; ++axis) {
-            Vectors ahead = sheet.positions, behind = sheet.positions;
+            Vec3Arrays ahead = sheet.positions, behind = sheet.positions;
             ahead.add(i, h * Vec3::Unit(axis));
             behind.add(i, -h * Vec3::Unit(axis));
             const double slope = (sheet.energy_at(ahead) - sheet.energy_at(behind)) / (2.0 * h);
@@ -150,7 +150,7 @@ TEST_CASE("The matrix is symmetric, positive semidefinite and blind to translati
         const Strained sheet(cloth_model(mesh, moduli_fabric(60.0, 12.0, 80.0, 0.6)), disturbed(mesh.vertices, stretch, 0.03, 8));
         const Eigen::MatrixXd matrix = sheet.matrix();
         CHECK((matrix - matrix.transpose()).norm() <= 1e-15 * matrix.norm());
-        CHECK(least_eigenvalue(matrix) >= -1e-7 * matrix.norm());
+        CHECK(min_eigenvalue(matrix) >= -1e-7 * matrix.norm());
         for (int axis = 0; axis < 3; ++axis) {
             Eigen::VectorXd shift = Eigen::VectorXd::Zero(matrix.cols());
             for (int i = axis; i < shift.size(); i += 3) shift[i] = 1.0;
@@ -165,7 +165,7 @@ TEST_CASE("Diagonal blocks are those of the matrix, and factorisation, multigrid
     const Eigen::MatrixXd matrix = sheet.matrix();
     const int count = sheet.model.vertex_count();
     Random random(10);
-    Vectors b;
+    Vec3Arrays b;
     b.resize(count);
     for (int i = 0; i < count; ++i) b.set(i, sheet.model.mass[i] * random.point(1.0));
     for (const LinearSolver which : {LinearSolver::direct, LinearSolver::multigrid, LinearSolver::cg}) {
@@ -180,7 +180,7 @@ TEST_CASE("Diagonal blocks are those of the matrix, and factorisation, multigrid
             const Eigen::Matrix3d expected = matrix.block<3, 3>(3 * i, 3 * i) + sheet.model.mass[i] * Eigen::Matrix3d::Identity();
             CHECK((full_block(block) - expected).norm() <= 1e-12 * expected.norm());
         }
-        Vectors x;
+        Vec3Arrays x;
         x.resize(count);
         const SolveReport report = solver.solve(b, {.relative_residual = 1e-8}, x);
         CHECK(report.converged);
@@ -197,7 +197,7 @@ TEST_CASE("Diagonal blocks are those of the matrix, and factorisation, multigrid
 TEST_CASE("All instruction sets and any number of threads give the same bits") {
     const TriangleMesh mesh = make_grid(1.0, 1.0, 96, 90);
     Strained sheet(cloth_model(mesh, woven_fabric()), disturbed(mesh.vertices, 1.02, 0.003, 11));
-    const Vectors forces = sheet.forces;
+    const Vec3Arrays forces = sheet.forces;
     const SpringTerms terms = sheet.terms;
     const double energy = sheet.energy;
     ThreadPool pool(2);

@@ -21,37 +21,37 @@ Fabric filled(std::optional<double> pressure, std::optional<double> gas_volume) 
 /// A dented ball beside an open sheet, in one model.
 struct Dented {
     ClothModel model;
-    Vectors positions, velocities;
+    Vec3Arrays positions, velocities;
 
-    explicit Dented(const Fabric& fabric, double dents = 0.02) {
+    explicit Dented(const Fabric& fabric, double deflections = 0.02) {
         append_cloth(model, make_grid(1.0, 1.0, 4, 4), sheet_fabric(), "sheet");
         append_cloth(model, make_sphere(0.2, 1), fabric, "ball");
         finish_model(model);
         Random random(5);
         std::vector<Vec3> places = model.rest;
-        for (Vec3& x : places) x += Vec3(3.0, -2.0, 1.0) + random.point(dents);
-        positions = to_vectors(places);
+        for (Vec3& x : places) x += Vec3(3.0, -2.0, 1.0) + random.point(deflections);
+        positions = to_vec3_arrays(places);
         velocities.resize(model.vertex_count());
     }
 
     const ClothRange& ball() const { return model.cloths[1]; }
-    double volume(const Vectors& at) const { return volume_of(model, ball(), at); }
-    ForceInput input(const Vectors& at) const {
+    double volume(const Vec3Arrays& at) const { return volume_of(model, ball(), at); }
+    ForceInput input(const Vec3Arrays& at) const {
         return {
             .compute = &compute, .model = &model, .positions = &at, .velocities = &velocities, .dt = 0.01, .with_matrix = true};
     }
-    double add(const Vectors& at, Forces& forces) const {
+    double add(const Vec3Arrays& at, Forces& forces) const {
         forces.total.resize(model.vertex_count());
         return pressure_term().add(input(at), forces);
     }
-    Vectors moved(double by, const Vectors& along) const {
-        Vectors result = positions;
+    Vec3Arrays moved(double by, const Vec3Arrays& along) const {
+        Vec3Arrays result = positions;
         add_scaled(result, by, along);
         return result;
     }
-    Vectors direction(unsigned seed) const {
+    Vec3Arrays direction(unsigned seed) const {
         Random random(seed);
-        return to_vectors(random_points(random, model.vertex_count(), 1.0));
+        return to_vec3_arrays(random_points(random, model.vertex_count(), 1.0));
     }
 };
 
@@ -62,16 +62,16 @@ TEST_CASE("The volume of a box is the product of its edges, wherever it is") {
     for (const Vec3& place : {Vec3(0.0, 0.0, 0.0), Vec3(5.0, -3.0, 2.0)}) {
         std::vector<Vec3> places = model.rest;
         for (Vec3& x : places) x += place;
-        CHECK(volume_of(model, model.cloths[0], to_vectors(places)) == Approx(0.03).epsilon(1e-14));
+        CHECK(volume_of(model, model.cloths[0], to_vec3_arrays(places)) == Approx(0.03).epsilon(1e-14));
     }
 }
 
-TEST_CASE("The gradient of the volume is what differences say, adds up to nothing and is 0 at other cloth") {
+TEST_CASE("The gradient of the volume agrees with differences, adds up to zero and is 0 at other cloth") {
     const Dented scene(filled(1.0, {}));
-    Vectors gradient;
+    Vec3Arrays gradient;
     set_volume_gradient(scene.model, scene.ball(), scene.positions, gradient);
     for (const unsigned seed : {1u, 2u, 3u}) {
-        const Vectors d = scene.direction(seed);
+        const Vec3Arrays d = scene.direction(seed);
         const double reach = 1e-5;
         const double slope = (scene.volume(scene.moved(reach, d)) - scene.volume(scene.moved(-reach, d))) / (2.0 * reach);
         CHECK(dot(compute, gradient, d) == Approx(slope).epsilon(1e-8));
@@ -82,37 +82,37 @@ TEST_CASE("The gradient of the volume is what differences say, adds up to nothin
     for (int i = 0; i < 16; ++i) CHECK(gradient.at(i) == Vec3::Zero());
 }
 
-TEST_CASE("A given pressure stays, and of an amount of gas pressure times volume does") {
+TEST_CASE("A given pressure is constant, and for an amount of gas pressure times volume is") {
     for (const double volume : {-0.1, 0.01, 0.02}) {
-        CHECK(filling_at(filled(30.0, {}), volume).pressure == 30.0);
-        CHECK(filling_at(filled(30.0, {}), volume).energy == -30.0 * volume);
-        CHECK(filling_at(filled(30.0, {}), volume).stiffness == 0.0);
+        CHECK(gas_state_at(filled(30.0, {}), volume).pressure == 30.0);
+        CHECK(gas_state_at(filled(30.0, {}), volume).energy == -30.0 * volume);
+        CHECK(gas_state_at(filled(30.0, {}), volume).stiffness == 0.0);
     }
     const Fabric gas = filled({}, 0.02);
     const double air = 101325.0;
     for (const double volume : {0.005, 0.02, 0.03}) {
-        const Filling at = filling_at(gas, volume);
+        const GasState at = gas_state_at(gas, volume);
         const double reach = 1e-6 * volume;
-        const Filling ahead = filling_at(gas, volume + reach), behind = filling_at(gas, volume - reach);
+        const GasState ahead = gas_state_at(gas, volume + reach), behind = gas_state_at(gas, volume - reach);
         CHECK((at.pressure + air) * volume == Approx(air * 0.02).epsilon(1e-14));
         CHECK(at.pressure == Approx((behind.energy - ahead.energy) / (2.0 * reach)).epsilon(1e-6).margin(1e-4));
         CHECK(at.stiffness == Approx((behind.pressure - ahead.pressure) / (2.0 * reach)).epsilon(1e-6));
     }
-    CHECK(filling_at(gas, 0.02).pressure == 0.0);
-    CHECK(filling_at(gas, 0.02).energy == 0.0);
+    CHECK(gas_state_at(gas, 0.02).pressure == 0.0);
+    CHECK(gas_state_at(gas, 0.02).energy == 0.0);
     for (const double volume : {0.0, -0.01}) {
-        CHECK(std::isinf(filling_at(gas, volume).energy));
-        CHECK(std::isnan(filling_at(gas, volume).pressure));
+        CHECK(std::isinf(gas_state_at(gas, volume).energy));
+        CHECK(std::isnan(gas_state_at(gas, volume).pressure));
     }
 }
 
-TEST_CASE("Forces of what fills a cloth are minus the slope of its energy, and reach no other cloth") {
+TEST_CASE("Forces of the gas state are minus the slope of its energy, and act on no other cloth") {
     for (const Fabric& fabric : {filled(40.0, {}), filled(-40.0, {}), filled({}, 0.04), filled({}, 0.02)}) {
         const Dented scene(fabric);
         Forces forces, unused;
         const double energy = scene.add(scene.positions, forces);
         CHECK(energy == pressure_term().energy({scene.model, scene.positions}));
-        const Vectors d = scene.direction(7);
+        const Vec3Arrays d = scene.direction(7);
         const double reach = 1e-6;
         const double ahead = scene.add(scene.moved(reach, d), unused), behind = scene.add(scene.moved(-reach, d), unused);
         CHECK(-dot(compute, forces.total, d) == Approx((ahead - behind) / (2.0 * reach)).epsilon(1e-5));
@@ -120,22 +120,22 @@ TEST_CASE("Forces of what fills a cloth are minus the slope of its energy, and r
     }
 }
 
-TEST_CASE("What fills a cloth is in the matrix with its whole derivative") {
+TEST_CASE("The pressure block is in the matrix with its whole derivative") {
     for (const Fabric& fabric : {filled(40.0, {}), filled(-40.0, {}), filled({}, 0.04), filled({}, 0.02)}) {
         const Dented scene(fabric);
         Forces forces, ahead, behind;
         scene.add(scene.positions, forces);
-        const Vectors d = scene.direction(9);
+        const Vec3Arrays d = scene.direction(9);
         const double reach = 1e-6, dt = 0.01;
         scene.add(scene.moved(reach, d), ahead);
         scene.add(scene.moved(-reach, d), behind);
         BlockMatrix matrix;
         matrix.compute = &compute;
-        matrix.enclosed = forces.enclosed;
+        matrix.pressure_blocks = forces.pressure_blocks;
         matrix.positions = &scene.positions;
-        Vectors product;
+        Vec3Arrays product;
         product.resize(scene.model.vertex_count());
-        add_enclosed_product(matrix, d, product);
+        add_pressure_product(matrix, d, product);
         double largest = 0.0, wrong = 0.0;
         for (int i = 0; i < scene.model.vertex_count(); ++i) {
             const Vec3 expected = dt * dt / (2.0 * reach) * (behind.total.at(i) - ahead.total.at(i));
@@ -147,31 +147,32 @@ TEST_CASE("What fills a cloth is in the matrix with its whole derivative") {
     }
 }
 
-TEST_CASE("Two filled cloths push each by its own volume") {
+TEST_CASE("Two cloths with gas are pushed each by its own volume") {
     ClothModel model;
     append_cloth(model, make_sphere(0.2, 1), filled(50.0, {}), "one");
     append_cloth(model, make_sphere(0.1, 1), filled({}, 0.006), "other");
     finish_model(model);
-    const Vectors positions = to_vectors(model.rest), still = to_vectors(std::vector<Vec3>(model.rest.size(), Vec3::Zero()));
+    const Vec3Arrays positions = to_vec3_arrays(model.rest),
+                     still = to_vec3_arrays(std::vector<Vec3>(model.rest.size(), Vec3::Zero()));
     Forces forces;
     forces.total.resize(model.vertex_count());
     pressure_term().add(
         {.compute = &compute, .model = &model, .positions = &positions, .velocities = &still, .dt = 0.01, .with_matrix = true},
         forces);
-    REQUIRE(forces.enclosed.size() == 2);
-    CHECK(forces.enclosed[0].stiffness == 0.0);
-    CHECK(forces.enclosed[1].stiffness > 0.0);
+    REQUIRE(forces.pressure_blocks.size() == 2);
+    CHECK(forces.pressure_blocks[0].stiffness == 0.0);
+    CHECK(forces.pressure_blocks[1].stiffness > 0.0);
     for (const ClothRange& cloth : model.cloths) {
-        Vectors gradient;
+        Vec3Arrays gradient;
         set_volume_gradient(model, cloth, positions, gradient);
-        const double pressure = filling_at(cloth.fabric, volume_of(model, cloth, positions)).pressure;
+        const double pressure = gas_state_at(cloth.fabric, volume_of(model, cloth, positions)).pressure;
         for (int i = cloth.first; i < cloth.first + cloth.count; ++i) {
             CHECK((forces.total.at(i) - pressure * gradient.at(i)).norm() <= 1e-12 * forces.total.at(i).norm());
         }
     }
 }
 
-TEST_CASE("Only a closed mesh with its normals outward is filled, by one of the two keys") {
+TEST_CASE("Only a closed mesh with its normals outward encloses gas, by one of the two keys") {
     const auto refusal = [](const TriangleMesh& mesh, const Fabric& fabric) -> std::string {
         ClothModel model;
         try {

@@ -9,7 +9,7 @@
 namespace percale::test::forces_sewing_test {
 namespace {
 
-/// Two sheets, 0.2 m apart, sewn along one side vertex to point; a share of the way is left.
+/// Two sheets, 0.2 m apart, sewn along one side vertex to point; a fraction of the distance is left.
 struct Sewn {
     ClothModel model;
     Seam seam{.length = {}, .from = 0.0, .over = 1.0};
@@ -21,17 +21,17 @@ struct Sewn {
         append_cloth(model, make_grid(1.0, 1.0, 4, 4), sheet_fabric(), "lower");
         append_cloth(model, upper, sheet_fabric(), "upper");
         const std::vector<Stitch> stitches = {{16, 0, 1, 0.3}, {17, 1, 2, 0.8}, {18, 2, 3, 0.5}, {19, 3, 3}};
-        append_seam(stitches, 300.0, to_vectors(model.rest), seam, model);
+        append_seam(stitches, 300.0, to_vec3_arrays(model.rest), seam, model);
         finish_model(model);
         rest_length = model.springs.rest_length;
         set_seam_lengths(seam, 1.0 - left, rest_length);
     }
 
-    /// All forces in which the seam has a part, and what they store.
-    double evaluate(const Vectors& positions, Vectors& forces) const {
+    /// All forces in which the seam has a part, and their energy.
+    double evaluate(const Vec3Arrays& positions, Vec3Arrays& forces) const {
         StepSprings springs;
         set_step_springs(compute, {model.adjacency, positions, DampingForm::velocity, 1.0, rest_length, &model.springs}, springs);
-        Vectors still;
+        Vec3Arrays still;
         still.resize(model.vertex_count());
         Forces sum;
         sum.total.resize(model.vertex_count());
@@ -44,27 +44,27 @@ struct Sewn {
     }
 };
 
-Vectors shaken(const Sewn& sewn, Random& random) {
+Vec3Arrays shaken(const Sewn& sewn, Random& random) {
     std::vector<Vec3> x = sewn.model.rest;
     for (Vec3& point : x) point += random.point(0.03);
-    return to_vectors(x);
+    return to_vec3_arrays(x);
 }
 
 }  // namespace
 
-TEST_CASE("Forces of sewn points are minus the gradient of what the seam and the springs store, while it closes and after") {
+TEST_CASE("Forces of sewn points are minus the gradient of the energy of seam and springs, while it closes and after") {
     Random random(5);
     for (const double left : {1.0, 0.4, 0.0}) {
         const Sewn sewn(left);
-        const Vectors x = shaken(sewn, random);
-        Vectors forces, none;
+        const Vec3Arrays x = shaken(sewn, random);
+        Vec3Arrays forces, none;
         sewn.evaluate(x, forces);
         for (int n = 0; n < 20; ++n) {
             std::vector<Vec3> way(sewn.model.vertex_count());
             for (Vec3& step : way) step = random.point(1.0);
-            const Vectors direction = to_vectors(way);
+            const Vec3Arrays direction = to_vec3_arrays(way);
             constexpr double reach = 1e-5;
-            Vectors ahead = x, behind = x;
+            Vec3Arrays ahead = x, behind = x;
             add_scaled(ahead, reach, direction);
             add_scaled(behind, -reach, direction);
             const double slope = (sewn.evaluate(ahead, none) - sewn.evaluate(behind, none)) / (2.0 * reach);
@@ -73,10 +73,10 @@ TEST_CASE("Forces of sewn points are minus the gradient of what the seam and the
     }
 }
 
-TEST_CASE("Sewn points exert no force together, and none where they are as far apart as they are to be") {
+TEST_CASE("Sewn points exert no total force, and none at all at their target distance") {
     const Sewn whole(1.0);
-    Vectors forces;
-    whole.evaluate(to_vectors(whole.model.rest), forces);
+    Vec3Arrays forces;
+    whole.evaluate(to_vec3_arrays(whole.model.rest), forces);
     for (int i = 0; i < whole.model.vertex_count(); ++i) CHECK(forces.at(i).norm() < 1e-11);
     Random random(6);
     const Sewn half(0.5);
@@ -86,9 +86,9 @@ TEST_CASE("Sewn points exert no force together, and none where they are as far a
     CHECK(sum.norm() < 1e-10);
 }
 
-TEST_CASE("What sewn points store is counted as elastic, and tells one cloth from another") {
+TEST_CASE("The energy of sewn points counts as elastic, and distinguishes cloths") {
     const Sewn sewn(0.25);
-    const Vectors x = to_vectors(sewn.model.rest);
+    const Vec3Arrays x = to_vec3_arrays(sewn.model.rest);
     double stored = 0.0;
     for (const SewnPoint& point : sewn.model.sewn_points) stored += sewn_energy(point, sewn.rest_length[point.spring], x);
     CHECK(stored > 0.0);
@@ -102,10 +102,10 @@ TEST_CASE("What sewn points store is counted as elastic, and tells one cloth fro
     CHECK(one.value() != other.value());
 }
 
-TEST_CASE("a weld pulls its two sides together with what it holds, and that is minus the gradient of its energy") {
+TEST_CASE("a weld pulls its two sides together with its hold, and that is minus the gradient of its energy") {
     ClothModel model;
     model.welds = {{{0, 2, 2, 0.0}, 100.0, {1.0, -2.0, 0.5}}, {{1, 2, 3, 0.25}, 50.0, {0.0, 3.0, 0.0}}};
-    Vectors x;
+    Vec3Arrays x;
     x.resize(4);
     for (int v = 0; v < 4; ++v) x.set(v, Vec3(0.1 * v, 0.02 * v * v, -0.3 * v));
     const ForceInput input{.model = &model, .positions = &x};
@@ -118,7 +118,7 @@ TEST_CASE("a weld pulls its two sides together with what it holds, and that is m
     for (int v = 0; v < 4; ++v) {
         sum += forces.total.at(v);
         for (int axis = 0; axis < 3; ++axis) {
-            Vectors moved = x;
+            Vec3Arrays moved = x;
             Vec3 by = Vec3::Zero();
             by[axis] = 1.0;  // the energy is linear
             moved.set(v, x.at(v) + by);
@@ -131,7 +131,7 @@ TEST_CASE("a weld pulls its two sides together with what it holds, and that is m
     CHECK_FALSE(welding_term().acts({.model = &none}));
 }
 
-TEST_CASE("saved states of other welds are others, whatever those hold with") {
+TEST_CASE("saved states of other welds differ, whatever their holds are") {
     ClothModel model;
     model.welds = {{{0, 2, 2, 0.0}, 100.0, {1.0, -2.0, 0.5}}};
     const auto hash_of = [](const ClothModel& of) {

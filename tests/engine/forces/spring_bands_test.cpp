@@ -6,7 +6,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
 
-// Springs of a grid lie in bands; the same network in slices is what they must agree with.
+// Springs of a grid lie in bands; they must agree with the same network in slices.
 
 namespace percale::test::spring_bands_test {
 namespace {
@@ -26,7 +26,7 @@ constexpr Shape some_shapes[] = {{2, 9, 1.0, 8.0},   {2, 40, 0.1, 1.0},  {3, 3, 
 struct Sheet {
     ClothModel model;
     Adjacency adjacency;
-    Vectors start, positions, velocities;
+    Vec3Arrays start, positions, velocities;
 
     Sheet(const Shape& shape, const Fabric& fabric, SpringLayout layout)
         : model(cloth_model(make_grid(shape.width, shape.depth, shape.columns, shape.rows), fabric)),
@@ -38,15 +38,15 @@ struct Sheet {
         for (Vec3& x : now) x += random.point(reach);
         for (int i = 0; i < model.vertex_count(); ++i) speed.push_back(random.point(0.3));
         now[1] = now[0];
-        start = to_vectors(before);
-        positions = to_vectors(now);
-        velocities = to_vectors(speed);
+        start = to_vec3_arrays(before);
+        positions = to_vec3_arrays(now);
+        velocities = to_vec3_arrays(speed);
     }
 };
 
 struct Evaluated {
     double energy = 0.0;
-    Vectors forces;
+    Vec3Arrays forces;
     SpringTerms terms;
 };
 
@@ -67,10 +67,10 @@ std::vector<Fabric> some_fabrics() {
     return fabrics;
 }
 
-double norm(const Vectors& x) { return std::sqrt(dot(compute, x, x)); }
+double norm(const Vec3Arrays& x) { return std::sqrt(dot(compute, x, x)); }
 
-double distance(const Vectors& a, const Vectors& b) {
-    Vectors difference = a;
+double distance(const Vec3Arrays& a, const Vec3Arrays& b) {
+    Vec3Arrays difference = a;
     add_scaled(difference, -1.0, b);
     return norm(difference);
 }
@@ -104,11 +104,11 @@ void check_blocks(const Sheet& bands, const Evaluated& in_bands, const Sheet& sl
 struct Product {
     BlockMatrix matrix;
     double square = 0.0;
-    Vectors y;
+    Vec3Arrays y;
 };
 
-/// With some vertices prescribed, whose entries of x are not 0.
-Product product(const Compute& run, const Sheet& sheet, const Evaluated& evaluated, const Vectors& x) {
+/// The product with some vertices prescribed, whose entries of x are not 0.
+Product product(const Compute& run, const Sheet& sheet, const Evaluated& evaluated, const Vec3Arrays& x) {
     Product result;
     set_pattern(run, sheet.adjacency, sheet.model.mass, result.matrix);
     for (int i = 0; i < sheet.model.vertex_count(); i += 7) result.matrix.free[i] = 0.0;
@@ -119,14 +119,14 @@ Product product(const Compute& run, const Sheet& sheet, const Evaluated& evaluat
     return result;
 }
 
-Vectors random_vector(unsigned seed, int count) {
+Vec3Arrays random_vector(unsigned seed, int count) {
     Random random(seed);
-    return to_vectors(random_points(random, count, 1.0));
+    return to_vec3_arrays(random_points(random, count, 1.0));
 }
 
-/// The product by a loop over the springs, in the blocks that the evaluation left.
-Vectors plain_product(const Sheet& sheet, const Evaluated& evaluated, const Vectors& x) {
-    Vectors y = x;
+/// The product by a loop over the springs, with the blocks of the evaluation.
+Vec3Arrays plain_product(const Sheet& sheet, const Evaluated& evaluated, const Vec3Arrays& x) {
+    Vec3Arrays y = x;
     for (int i = 0; i < sheet.model.vertex_count(); ++i) y.set(i, sheet.model.mass[i] * x.at(i));
     for (int k = 0; k < sheet.model.springs.size(); ++k) {
         const int i = sheet.model.springs.first[k], j = sheet.model.springs.second[k];
@@ -163,7 +163,7 @@ TEST_CASE("Forces, energies and blocks of springs in bands are those of springs 
     });
 }
 
-TEST_CASE("Most of the shapes do lie in bands") {
+TEST_CASE("Most of the shapes lie in bands") {
     int banded = 0;
     for (const Shape& shape : some_shapes) banded += Sheet(shape, sheet_fabric(), SpringLayout::best).adjacency.bands.count > 0;
     CHECK(banded >= 5);
@@ -172,9 +172,9 @@ TEST_CASE("Most of the shapes do lie in bands") {
 TEST_CASE("Products and block diagonals of springs in bands are those of their blocks") {
     for_sheets([](const Sheet& bands, const Sheet& slices, DampingForm form) {
         const Evaluated first = evaluate(compute, bands, form), second = evaluate(compute, slices, form);
-        const Vectors x = random_vector(5, bands.model.vertex_count());
+        const Vec3Arrays x = random_vector(5, bands.model.vertex_count());
         const Product in_bands = product(compute, bands, first, x), in_slices = product(compute, slices, second, x);
-        const Vectors plain = plain_product(bands, first, x);
+        const Vec3Arrays plain = plain_product(bands, first, x);
         CHECK(distance(in_bands.y, plain) <= 1e-13 * norm(plain));
         CHECK(distance(in_bands.y, in_slices.y) <= 1e-6 * norm(plain));
         CHECK(in_bands.square == Approx(dot(compute, x, plain)).epsilon(1e-12));
@@ -192,7 +192,7 @@ TEST_CASE("Springs in bands have the bits of the baseline in every instruction s
     const Compute baseline{kernels_for(InstructionSet::baseline)};
     for_sheets([&](const Sheet& bands, const Sheet&, DampingForm form) {
         const Evaluated expected = evaluate(baseline, bands, form);
-        const Vectors x = random_vector(6, bands.model.vertex_count());
+        const Vec3Arrays x = random_vector(6, bands.model.vertex_count());
         const Product expected_product = product(baseline, bands, expected, x);
         for (const Compute& other : other_sets()) {
             const Evaluated result = evaluate(other, bands, form);
@@ -223,24 +223,24 @@ TEST_CASE("Springs in bands exert no net force and leave padding alone") {
     });
 }
 
-TEST_CASE("Forces of springs in bands are added to what is there, with and without a matrix") {
+TEST_CASE("Forces of springs in bands are added to earlier values, with and without a matrix") {
     const Sheet sheet({65, 70, 1.0, 1.0}, sheet_fabric(), SpringLayout::best);
     StepSprings springs;
     set_step_springs(compute, {sheet.adjacency, sheet.start, DampingForm::velocity, dt}, springs);
-    const Vectors before = random_vector(7, sheet.model.vertex_count());
-    Vectors with = before, without = before;
+    const Vec3Arrays before = random_vector(7, sheet.model.vertex_count());
+    Vec3Arrays with = before, without = before;
     SpringTerms terms, none;
     const SpringMotion motion{sheet.positions, sheet.velocities, dt};
     CHECK(evaluate_springs(compute, springs, motion, true, with, terms) ==
           evaluate_springs(compute, springs, motion, false, without, none));
     CHECK(same_bits(with, without));
     CHECK(none.values.empty());
-    const Vectors alone = evaluate(compute, sheet, DampingForm::velocity).forces;
+    const Vec3Arrays alone = evaluate(compute, sheet, DampingForm::velocity).forces;
     add_scaled(with, -1.0, before);
     CHECK(distance(with, alone) <= 1e-13 * norm(alone));
 }
 
-TEST_CASE("Terms of another grid leave nothing behind, even where they take as many numbers") {
+TEST_CASE("Terms of another grid leave no trace, even where they take as many numbers") {
     const Sheet wide({17, 17, 1.0, 1.0}, sheet_fabric(), SpringLayout::best);
     const Sheet narrow({8, 42, 1.0, 6.0}, sheet_fabric(), SpringLayout::best);
     REQUIRE(wide.adjacency.value_count() == narrow.adjacency.value_count());
@@ -248,10 +248,10 @@ TEST_CASE("Terms of another grid leave nothing behind, even where they take as m
     Evaluated reused = evaluate(compute, narrow, DampingForm::length_rate);
     StepSprings springs;
     set_step_springs(compute, {wide.adjacency, wide.start, DampingForm::length_rate, dt}, springs);
-    Vectors forces;
+    Vec3Arrays forces;
     forces.resize(wide.model.vertex_count());
     evaluate_springs(compute, springs, {wide.positions, wide.velocities, dt}, true, forces, reused.terms);
-    const Vectors x = random_vector(8, wide.model.vertex_count());
+    const Vec3Arrays x = random_vector(8, wide.model.vertex_count());
     CHECK(same_bits(product(compute, wide, reused, x).y, product(compute, wide, fresh, x).y));
 }
 

@@ -15,27 +15,27 @@ constexpr double dt = 0.01;
 struct MovingSprings {
     static constexpr int count = 20;
     ClothModel model;
-    Vectors start, end, velocities;
+    Vec3Arrays start, end, velocities;
 
     MovingSprings() {
         Random random(6);
         const std::vector<double> masses(count, 0.1);
         model = linked_masses(masses, random_links(random, count, 60));
-        start = to_vectors(random_points(random, count, 1.0));
-        end = to_vectors(random_points(random, count, 1.0));
-        velocities = to_vectors(random_points(random, count, 3.0));
+        start = to_vec3_arrays(random_points(random, count, 1.0));
+        end = to_vec3_arrays(random_points(random, count, 1.0));
+        velocities = to_vec3_arrays(random_points(random, count, 3.0));
     }
 
-    SpringMove move(const Vectors& at, DampingForm form) const {
+    SpringMove move(const Vec3Arrays& at, DampingForm form) const {
         return {.start = start, .end = end, .positions = at, .velocities = velocities, .form = form, .dt = dt};
     }
 
-    /// What the spring forces at a state give to the move, J.
-    double given(const Vectors& at, DampingForm form) const {
+    /// Work of the spring forces at a state over the move, J.
+    double given(const Vec3Arrays& at, DampingForm form) const {
         StepSprings springs;
         set_step_springs(compute, {model.adjacency, start, form, dt}, springs);
         SpringTerms terms;
-        Vectors forces;
+        Vec3Arrays forces;
         forces.resize(count);
         evaluate_springs(compute, springs, {at, velocities, dt}, false, forces, terms);
         double sum = 0.0;
@@ -46,23 +46,24 @@ struct MovingSprings {
 
 }  // namespace
 
-TEST_CASE("What springs take over a move is their gain of energy and what they lose") {
+TEST_CASE("The work that springs take over a move is their gain of energy and their loss") {
     const MovingSprings moving;
     const double gain = elastic_energy(moving.model.springs, moving.end) - elastic_energy(moving.model.springs, moving.start);
     for (const DampingForm form : {DampingForm::length_rate, DampingForm::velocity}) {
         // The length rate acts along the direction at the end.
-        const Vectors& at = form == DampingForm::velocity ? moving.start : moving.end;
+        const Vec3Arrays& at = form == DampingForm::velocity ? moving.start : moving.end;
         const SpringLoss loss = spring_loss(moving.model.springs, moving.move(at, form));
         CHECK(-moving.given(at, form) == Approx(gain + loss.integrator + loss.material).epsilon(1e-12));
     }
 }
 
-TEST_CASE("A spring that is stretched on its line loses dt kd r^2, and the scheme half of ks times the square of the change") {
+TEST_CASE("A spring stretched along its line loses dt kd r^2, and the scheme half of ks times the square of the change") {
     const double stiffness = 30.0, damping = 0.7, change = 0.2;
     const ClothModel model = linked_masses({1.0, 1.0}, {{0, 1, 1.0, stiffness, damping}});
-    const Vectors start = to_vectors({Vec3(1.1, 0, 0), Vec3::Zero()}), end = to_vectors({Vec3(1.1 + change, 0, 0), Vec3::Zero()});
-    const Vectors still = to_vectors({Vec3::Zero(), Vec3::Zero()});
-    for (const Vectors* at : {&start, &end}) {
+    const Vec3Arrays start = to_vec3_arrays({Vec3(1.1, 0, 0), Vec3::Zero()}),
+                     end = to_vec3_arrays({Vec3(1.1 + change, 0, 0), Vec3::Zero()});
+    const Vec3Arrays still = to_vec3_arrays({Vec3::Zero(), Vec3::Zero()});
+    for (const Vec3Arrays* at : {&start, &end}) {
         const SpringLoss loss = spring_loss(model.springs, {start, end, *at, still, DampingForm::length_rate, dt});
         CHECK(loss.material == Approx(damping * change * change / dt).epsilon(1e-12));
         CHECK(loss.integrator == Approx((at == &end ? 0.5 : -0.5) * stiffness * change * change).epsilon(1e-12));
@@ -71,13 +72,14 @@ TEST_CASE("A spring that is stretched on its line loses dt kd r^2, and the schem
 
 TEST_CASE("A spring that turns without a change of length loses nothing to its damping") {
     const ClothModel model = linked_masses({1.0, 1.0}, {{0, 1, 0.8, 30.0, 0.7}});
-    const Vectors start = to_vectors({Vec3(1, 0, 0), Vec3::Zero()}), end = to_vectors({Vec3(0, 0.6, 0.8), Vec3::Zero()});
-    const Vectors turning = to_vectors({Vec3(0, 5, 0), Vec3::Zero()});
+    const Vec3Arrays start = to_vec3_arrays({Vec3(1, 0, 0), Vec3::Zero()}),
+                     end = to_vec3_arrays({Vec3(0, 0.6, 0.8), Vec3::Zero()});
+    const Vec3Arrays turning = to_vec3_arrays({Vec3(0, 5, 0), Vec3::Zero()});
     CHECK(spring_loss(model.springs, {start, end, end, turning, DampingForm::length_rate, dt}).material == 0.0);
     CHECK(spring_loss(model.springs, {start, end, start, turning, DampingForm::velocity, dt}).material == 0.0);
 }
 
-TEST_CASE("The power that damping takes is that of its forces") {
+TEST_CASE("The dissipated power is that of the damping forces") {
     MovingSprings moving;
     for (double& stiffness : moving.model.springs.stiffness) stiffness = 0.0;
     finish_model(moving.model);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double dt = 1.0 / 60.0;
 
-/// What one spring between vertices 0 and 1 does in a state.
+/// Force, energy and matrix of one spring between vertices 0 and 1 in a state.
 struct Evaluated {
     double energy;
     Vec3 force;  // on vertex 0
@@ -21,18 +21,18 @@ struct Evaluated {
 
 struct OneSpring {
     ClothModel model;
-    Vectors positions, velocities;
+    Vec3Arrays positions, velocities;
 
     OneSpring(const Vec3& x, const Vec3& v, const Link& link)
         : model(linked_masses({1.0, 1.0}, {link})),
-          positions(to_vectors({x, Vec3::Zero()})),
-          velocities(to_vectors({v, Vec3::Zero()})) {}
+          positions(to_vec3_arrays({x, Vec3::Zero()})),
+          velocities(to_vec3_arrays({v, Vec3::Zero()})) {}
 
     Evaluated evaluate(DampingForm form = DampingForm::velocity) const {
         StepSprings springs;
         set_step_springs(compute, {model.adjacency, positions, form, dt}, springs);
         SpringTerms terms;
-        Vectors forces;
+        Vec3Arrays forces;
         forces.resize(2);
         const double energy = evaluate_springs(compute, springs, {positions, velocities, dt}, true, forces, terms);
         CHECK(forces.at(1) == -forces.at(0));
@@ -56,23 +56,23 @@ Eigen::Vector3d eigenvalues(const Eigen::Matrix3d& m) {
 
 struct RandomNetwork {
     ClothModel model;
-    Vectors positions, velocities;
+    Vec3Arrays positions, velocities;
     explicit RandomNetwork(unsigned seed, int count = 21) {
         Random random(seed);
         model = linked_masses(random_masses(random, count), random_links(random, count, 4 * count));
-        positions = to_vectors(random_points(random, count, 0.7));
-        velocities = to_vectors(random_points(random, count, 1.0));
+        positions = to_vec3_arrays(random_points(random, count, 0.7));
+        velocities = to_vec3_arrays(random_points(random, count, 1.0));
     }
-    Vectors forces(const StepSprings& springs) const {
+    Vec3Arrays forces(const StepSprings& springs) const {
         SpringTerms terms;
-        Vectors result;
+        Vec3Arrays result;
         result.resize(model.vertex_count());
         evaluate_springs(compute, springs, {positions, velocities, dt}, false, result, terms);
         return result;
     }
-    double potential(const StepSprings& springs, const Vectors& at) const {
+    double potential(const StepSprings& springs, const Vec3Arrays& at) const {
         SpringTerms terms;
-        Vectors forces = at;
+        Vec3Arrays forces = at;
         return evaluate_springs(compute, springs, {at, velocities, dt}, false, forces, terms);
     }
 };
@@ -94,10 +94,10 @@ TEST_CASE("Spring forces are minus the gradient of the elastic energy") {
     network.velocities.resize(network.model.vertex_count());
     StepSprings springs;
     set_step_springs(compute, {network.model.adjacency, network.positions, DampingForm::velocity, dt}, springs);
-    const Vectors forces = network.forces(springs);
+    const Vec3Arrays forces = network.forces(springs);
     for (int i = 0; i < network.model.vertex_count(); ++i) {
         for (int axis = 0; axis < 3; ++axis) {
-            Vectors ahead = network.positions, behind = network.positions;
+            Vec3Arrays ahead = network.positions, behind = network.positions;
             ahead.add(i, 1e-6 * Vec3::Unit(axis));
             behind.add(i, -1e-6 * Vec3::Unit(axis));
             const double slope =
@@ -111,13 +111,13 @@ TEST_CASE("Damping as a length rate is an exact potential of the end positions")
     RandomNetwork network(3);
     StepSprings springs;
     set_step_springs(compute, {network.model.adjacency, network.positions, DampingForm::length_rate, dt}, springs);
-    const Vectors start = network.positions;
+    const Vec3Arrays start = network.positions;
     Random random(4);
     for (int i = 0; i < network.model.vertex_count(); ++i) network.positions.add(i, random.point(0.05));
-    const Vectors forces = network.forces(springs);
+    const Vec3Arrays forces = network.forces(springs);
     for (int i = 0; i < network.model.vertex_count(); ++i) {
         for (int axis = 0; axis < 3; ++axis) {
-            Vectors ahead = network.positions, behind = network.positions;
+            Vec3Arrays ahead = network.positions, behind = network.positions;
             ahead.add(i, 1e-6 * Vec3::Unit(axis));
             behind.add(i, -1e-6 * Vec3::Unit(axis));
             const double slope = (network.potential(springs, ahead) - network.potential(springs, behind)) / 2e-6;
@@ -136,7 +136,7 @@ TEST_CASE("Damping as a length rate pulls with ks (l - l0) + kd (l - l_n)/dt") {
         set_step_springs(compute, {spring.model.adjacency, spring.positions, DampingForm::length_rate, dt}, springs);
         spring.positions.set(0, moved);
         SpringTerms terms;
-        Vectors forces;
+        Vec3Arrays forces;
         forces.resize(2);
         evaluate_springs(compute, springs, {spring.positions, spring.velocities, dt}, false, forces, terms);
         const double tension =
@@ -200,7 +200,7 @@ TEST_CASE("A spring's matrix is positive semidefinite in every state and stiff a
     CHECK(capped > 20);
 }
 
-TEST_CASE("A spring of no length pulls nowhere and is stiff every way") {
+TEST_CASE("A spring of no length exerts no force and is stiff in every direction") {
     const Link link{0, 1, 0.5, 300.0, 2.0};
     for (const DampingForm form : {DampingForm::velocity, DampingForm::length_rate}) {
         const Evaluated spring = OneSpring(Vec3::Zero(), Vec3(1, 2, 3), link).evaluate(form);
@@ -210,14 +210,14 @@ TEST_CASE("A spring of no length pulls nowhere and is stiff every way") {
     }
 }
 
-TEST_CASE("Forces and energy have the same bits with and without a matrix, which is left alone if not asked for") {
+TEST_CASE("Forces and energy have the same bits with and without a matrix, which is unchanged unless requested") {
     for (const DampingForm form : {DampingForm::velocity, DampingForm::length_rate}) {
         const RandomNetwork network(13, 40);
         const Adjacency& adjacency = network.model.adjacency;
         StepSprings springs;
         set_step_springs(compute, {adjacency, network.positions, form, dt}, springs);
         SpringTerms terms;
-        Vectors with, without;
+        Vec3Arrays with, without;
         for (auto* forces : {&with, &without}) forces->resize(40);
         const double energy = evaluate_springs(compute, springs, {network.positions, network.velocities, dt}, true, with, terms);
         const SpringBlock before = spring_block(adjacency, terms, 7);
@@ -254,7 +254,7 @@ TEST_CASE("Springs exert no net force and no net torque") {
         const RandomNetwork network(10, 40);
         StepSprings springs;
         set_step_springs(compute, {network.model.adjacency, network.positions, form, dt}, springs);
-        const Vectors forces = network.forces(springs);
+        const Vec3Arrays forces = network.forces(springs);
         Vec3 sum = Vec3::Zero(), torque = Vec3::Zero();
         double size = 0.0;
         for (int i = 0; i < 40; ++i) {
@@ -267,7 +267,7 @@ TEST_CASE("Springs exert no net force and no net torque") {
     }
 }
 
-TEST_CASE("Forces are added to what is there, each vertex getting the sum over its springs") {
+TEST_CASE("Forces are added to earlier values, each vertex getting the sum over its springs") {
     const RandomNetwork network(11, 29);
     const SpringNetwork& list = network.model.springs;
     StepSprings springs;
@@ -284,12 +284,12 @@ TEST_CASE("Forces are added to what is there, each vertex getting the sum over i
         size += force.norm();
     }
     SpringTerms terms;
-    Vectors forces = to_vectors(std::vector<Vec3>(29, Vec3(1.0, 2.0, 3.0)));
+    Vec3Arrays forces = to_vec3_arrays(std::vector<Vec3>(29, Vec3(1.0, 2.0, 3.0)));
     evaluate_springs(compute, springs, {network.positions, network.velocities, dt}, false, forces, terms);
     CHECK(largest_difference(to_points(forces, 29), expected) <= 1e-13 * size);
 }
 
-TEST_CASE("Damping acts along springs only: a rigid motion feels none, where ether drag would stop it") {
+TEST_CASE("Damping acts along springs only: a rigid motion is undamped, while ether drag would stop it") {
     RandomNetwork network(12);
     const Vec3 spin(0.7, -1.1, 2.0), drift(1.0, 2.0, 3.0);
     double drag_power = 0.0;
@@ -303,7 +303,7 @@ TEST_CASE("Damping acts along springs only: a rigid motion feels none, where eth
     finish_model(network.model);
     StepSprings springs;
     set_step_springs(compute, {network.model.adjacency, network.positions, DampingForm::velocity, dt}, springs);
-    const Vectors forces = network.forces(springs);
+    const Vec3Arrays forces = network.forces(springs);
     double power = 0.0;
     for (int i = 0; i < network.model.vertex_count(); ++i) {
         CHECK(forces.at(i).norm() < 1e-13);
@@ -316,11 +316,12 @@ TEST_CASE("Damping acts along springs only: a rigid motion feels none, where eth
 TEST_CASE("The largest strain is that of structural springs, and zero if none is stretched") {
     ClothModel model = linked_masses({1, 1, 1}, {{0, 1, 1.0, 1.0, 0.0}, {1, 2, 2.0, 1.0, 0.0}, {0, 2, 0.1, 1.0, 0.0}});
     model.springs.kind[2] = SpringKind::bend;
-    CHECK(largest_strain(model.springs, to_vectors({{0, 0, 0}, {1.25, 0, 0}, {1.25, 2.2, 0}})) == Approx(0.25).epsilon(1e-14));
-    CHECK(largest_strain(model.springs, to_vectors({{0, 0, 0}, {0.5, 0, 0}, {0.5, 1.0, 0}})) == 0.0);
+    CHECK(largest_strain(model.springs, to_vec3_arrays({{0, 0, 0}, {1.25, 0, 0}, {1.25, 2.2, 0}})) ==
+          Approx(0.25).epsilon(1e-14));
+    CHECK(largest_strain(model.springs, to_vec3_arrays({{0, 0, 0}, {0.5, 0, 0}, {0.5, 1.0, 0}})) == 0.0);
 }
 
-TEST_CASE("A spring longer than a billion billion metres has blown up") {
+TEST_CASE("A spring longer than a billion billion metres has diverged") {
     const Link link{0, 1, 1.0, 100.0, 0.1};
     for (const double length : {1e17, 0.99e18}) {
         const Evaluated large = OneSpring(Vec3(0.0, length, 0.0), Vec3::Zero(), link).evaluate();
@@ -329,10 +330,10 @@ TEST_CASE("A spring longer than a billion billion metres has blown up") {
     for (const double length : {1.01e18, 1e200}) {
         StepSprings springs;
         const ClothModel model = linked_masses({1.0, 1.0}, {link});
-        const Vectors places = to_vectors({Vec3(0.0, length, 0.0), Vec3::Zero()}),
-                      velocities = to_vectors({Vec3::Zero(), Vec3::Zero()});
+        const Vec3Arrays places = to_vec3_arrays({Vec3(0.0, length, 0.0), Vec3::Zero()}),
+                         velocities = to_vec3_arrays({Vec3::Zero(), Vec3::Zero()});
         set_step_springs(compute, {model.adjacency, places, DampingForm::velocity, dt}, springs);
-        Vectors forces = velocities;
+        Vec3Arrays forces = velocities;
         SpringTerms terms;
         CHECK(std::isnan(evaluate_springs(compute, springs, {places, velocities, dt}, true, forces, terms)));
         CHECK(std::isnan(forces.at(0).y()));

@@ -12,10 +12,10 @@ namespace {
 
 constexpr double dt = 1.0 / 60.0;
 
-/// A sheet without springs worth the name, stretched at random, some edges of which hold already.
+/// A sheet with negligible springs, stretched at random, some edges of which have a hold already.
 struct LimitedSheet {
     ClothModel model;
-    Vectors positions, velocities, forces;
+    Vec3Arrays positions, velocities, forces;
     SpringTerms terms;
     double energy = 0.0;
 
@@ -28,12 +28,12 @@ struct LimitedSheet {
         Random random(31);
         std::vector<Vec3> places = model.rest;
         for (Vec3& x : places) x = stretch * x + 0.004 * Vec3(random.number(-1, 1), random.number(-1, 1), random.number(-1, 1));
-        positions = to_vectors(places);
+        positions = to_vec3_arrays(places);
         velocities.resize(model.vertex_count());
         for (std::size_t k = 0; k < model.limits.edges.size(); k += 3) model.limits.set_hold(model.limits.edges[k], 3.0);
     }
 
-    /// The limits alone.
+    /// Evaluates only the limits.
     void evaluate(const Compute& with = compute) {
         pack_points(with, model.adjacency, positions, terms.points);
         terms.values.assign(model.adjacency.value_count(), 0.0f);
@@ -75,7 +75,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Their forces are minus the slope of their energy") {
+TEST_CASE("Forces of limited edges are minus the slope of their energy") {
     LimitedSheet sheet(false);
     sheet.evaluate();
     Random random(5);
@@ -83,7 +83,7 @@ TEST_CASE("Their forces are minus the slope of their energy") {
         const int i = static_cast<int>(random.number(0, sheet.model.vertex_count() - 1e-9));
         const Vec3 way(random.number(-1, 1), random.number(-1, 1), random.number(-1, 1)), place = sheet.positions.at(i);
         const auto energy_at = [&](double reach) {
-            Vectors moved = sheet.positions;
+            Vec3Arrays moved = sheet.positions;
             moved.set(i, place + reach * way);
             return limit_energy(sheet.model.limits, sheet.model.springs, moved);
         };
@@ -91,7 +91,7 @@ TEST_CASE("Their forces are minus the slope of their energy") {
     }
 }
 
-TEST_CASE("Slack edges add nothing, not even a bit") {
+TEST_CASE("Slack edges change no bit") {
     LimitedSheet sheet(true, 0.9);
     for (LimitedEdge& edge : sheet.model.limits.edges) sheet.model.limits.set_hold(edge, 0.0);
     sheet.evaluate();

@@ -10,7 +10,7 @@ namespace {
 /// A crumpled moving sheet and its step springs.
 struct Crumpled {
     ClothModel model = cloth_model(make_grid(1.0, 1.0, 6, 5), sheet_fabric());
-    Vectors positions, velocities;
+    Vec3Arrays positions, velocities;
     StepSprings springs;
     ForceInput input;
 
@@ -18,8 +18,8 @@ struct Crumpled {
         Random random(3);
         std::vector<Vec3> places = make_grid(1.0, 1.0, 6, 5).vertices;
         for (Vec3& x : places) x += random.point(0.05);
-        positions = to_vectors(places);
-        velocities = to_vectors(random_points(random, 30, 1.0));
+        positions = to_vec3_arrays(places);
+        velocities = to_vec3_arrays(random_points(random, 30, 1.0));
         set_step_springs(compute, {model.adjacency, positions, DampingForm::velocity, 0.01}, springs);
         input = {.compute = &compute,
                  .model = &model,
@@ -38,7 +38,7 @@ TEST_CASE("The total force is gravity and springs, the potential the sum of thei
     const Crumpled sheet;
     Forces forces;
     evaluate_forces(sheet.input, forces);
-    Vectors expected;
+    Vec3Arrays expected;
     expected.resize(30);
     set_gravity_forces(compute, sheet.model.mass, sheet.input.gravity, expected);
     SpringTerms terms;

@@ -13,25 +13,25 @@ constexpr double dt = 1.0 / 60.0, density = 1.2;
 
 struct Blown {
     WindTerms terms;
-    Vectors forces;
+    Vec3Arrays forces;
 };
 
-Blown blow(const ClothModel& model, const std::vector<Vec3>& positions, const Vectors& velocities, const Vec3& air) {
+Blown blow(const ClothModel& model, const std::vector<Vec3>& positions, const Vec3Arrays& velocities, const Vec3& air) {
     Blown result;
     StepWind wind;
-    set_step_wind(model, air, density, to_vectors(positions), wind);
+    set_step_wind(model, air, density, to_vec3_arrays(positions), wind);
     result.forces.resize(model.vertex_count());
     add_wind(model, wind, velocities, dt, result.forces, result.terms);
     return result;
 }
 
-Vec3 sum(const Vectors& vectors, int count) {
+Vec3 sum(const Vec3Arrays& vectors, int count) {
     Vec3 total = Vec3::Zero();
     for (int i = 0; i < count; ++i) total += vectors.at(i);
     return total;
 }
 
-Vectors random_velocities(Random& random, int count) { return to_vectors(random_points(random, count, 3.0)); }
+Vec3Arrays random_velocities(Random& random, int count) { return to_vec3_arrays(random_points(random, count, 3.0)); }
 
 Eigen::Matrix3d matrix_of(const SymmetricBlock& k) {
     Eigen::Matrix3d m;
@@ -55,7 +55,7 @@ TEST_CASE("A sheet at rest takes the drag of its area, across and along, each ve
         const ClothModel model = cloth_model(mesh, fabric_for(mesh));
         double area = 0.0;
         for (const double m : model.mass) area += m / 0.2;
-        Vectors still;
+        Vec3Arrays still;
         still.resize(model.vertex_count());
         const Blown across = blow(model, model.rest, still, {0.0, -4.0, 0.0});
         CHECK((sum(across.forces, model.vertex_count()) - Vec3(0, -0.5 * density * area * 1.7 * 16.0, 0)).norm() < 1e-10);
@@ -67,14 +67,14 @@ TEST_CASE("A sheet at rest takes the drag of its area, across and along, each ve
     }
 }
 
-TEST_CASE("Only the velocity relative to the air counts, and drag never speeds it up") {
+TEST_CASE("Only the velocity relative to the air counts, and drag never increases it") {
     Random random(4);
     for (const TriangleMesh& mesh : some_meshes()) {
         const ClothModel model = cloth_model(mesh, fabric_for(mesh));
         const std::vector<Vec3> places = random_points(random, model.vertex_count(), 0.5);
-        const Vectors velocities = random_velocities(random, model.vertex_count());
+        const Vec3Arrays velocities = random_velocities(random, model.vertex_count());
         const Vec3 air(1.0, -2.0, 0.5);
-        Vectors relative = velocities;
+        Vec3Arrays relative = velocities;
         for (int i = 0; i < model.vertex_count(); ++i) relative.add(i, -air);
         const Blown moving = blow(model, places, velocities, air), still = blow(model, places, relative, Vec3::Zero());
         double work = 0.0, power = 0.0;
@@ -89,19 +89,19 @@ TEST_CASE("Only the velocity relative to the air counts, and drag never speeds i
     }
 }
 
-TEST_CASE("Drag is minus the derivative of its potential by velocity, and its blocks are minus its own") {
+TEST_CASE("Drag is minus the derivative of its potential by velocity, and its blocks are minus the derivative of the drag") {
     Random random(8);
     for (const TriangleMesh& mesh : some_meshes()) {
         const ClothModel model = cloth_model(mesh, fabric_for(mesh));
         const std::vector<Vec3> places = random_points(random, model.vertex_count(), 0.5);
-        const Vectors velocities = random_velocities(random, model.vertex_count());
+        const Vec3Arrays velocities = random_velocities(random, model.vertex_count());
         const Vec3 air(5.0, 0.0, -1.0);
         const Blown here = blow(model, places, velocities, air);
         const double h = 1e-5;
         for (int i = 0; i < model.vertex_count(); i += 7) {
             const Eigen::Matrix3d block = matrix_of(here.terms.blocks[i]);
             for (int axis = 0; axis < 3; ++axis) {
-                Vectors ahead = velocities, behind = velocities;
+                Vec3Arrays ahead = velocities, behind = velocities;
                 ahead.add(i, h * Vec3::Unit(axis));
                 behind.add(i, -h * Vec3::Unit(axis));
                 const Blown up = blow(model, places, ahead, air), down = blow(model, places, behind, air);

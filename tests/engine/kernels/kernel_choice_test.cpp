@@ -19,13 +19,13 @@ TEST_CASE("The baseline kernels exist everywhere, and every table knows its set"
     }
 }
 
-TEST_CASE("Instruction sets are named as the environment names them") {
+TEST_CASE("Instruction sets have the names of the environment variable") {
     CHECK(instruction_set_name(InstructionSet::baseline) == std::string("baseline"));
     CHECK(instruction_set_name(InstructionSet::avx2) == std::string("avx2"));
     CHECK(instruction_set_name(InstructionSet::avx512) == std::string("avx512"));
 }
 
-TEST_CASE("The best kernels are the widest there are, or no wider than asked for") {
+TEST_CASE("The best kernels are the widest available, or at most as wide as requested") {
     const char* wish = std::getenv("PERCALE_INSTRUCTIONS");
     const Kernels* expected = nullptr;
     for (const InstructionSet set : all_sets) {

@@ -82,7 +82,7 @@ Case float_product_case(bool coarse, bool with_right) {
 Case smooth_case(bool fresh) {
     return {"smooth", 1e-6,
             [=](const Kernels& kernels, KernelProblem p, const Ranges& ranges) {
-                // From zero nothing of x is read.
+                // From zero no entry of x is read.
                 if (fresh) std::fill(p.float_x.begin(), p.float_x.end(), std::numeric_limits<float>::quiet_NaN());
                 const SmoothPass pass{.inverse = p.blocks.data(),
                                       .r = {p.float_r.data(), p.padded},
@@ -239,7 +239,7 @@ AlignedVector<double> definite_matrix(Random& random, int size, int stride) {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-RowMajor whole_rows(const AlignedVector<double>& matrix, int size, int stride) {
+RowMajor whole_constraints(const AlignedVector<double>& matrix, int size, int stride) {
     return Eigen::Map<const RowMajor>(matrix.data(), size, stride);
 }
 
@@ -308,10 +308,10 @@ TEST_CASE("Work split into ranges of slices writes the same bits") {
     }
 }
 
-TEST_CASE("A kernel leaves alone what lies outside its range") {
+TEST_CASE("A kernel changes nothing outside its range") {
     const KernelProblem problem(8, 9);
     for (const Kernels* kernels : available()) {
-        Vectors forces = problem.y;
+        Vec3Arrays forces = problem.y;
         KernelProblem part = problem;
         run_springs(*kernels, part, {{3, 5}}, false, true);
         for (int i = 0; i < 9 * slice_lanes; ++i) {
@@ -354,17 +354,17 @@ TEST_CASE("Galerkin sums are the sums of coefficient times block") {
     }
 }
 
-TEST_CASE("The dense inverse is Eigen's, and of the same bits in every instruction set") {
+TEST_CASE("The dense inverse is Eigen's, and has the same bits in every instruction set") {
     Random random(10);
     for (const int size : {1, 3, 15, 16, 17, 48, 90}) {
         const int stride = padded_stride(size);
         const AlignedVector<double> matrix = definite_matrix(random, size, stride);
-        const Eigen::MatrixXd expected = whole_rows(matrix, size, stride).leftCols(size).inverse();
+        const Eigen::MatrixXd expected = whole_constraints(matrix, size, stride).leftCols(size).inverse();
         AlignedVector<double> baseline;
         for (const Kernels* kernels : available()) {
             AlignedVector<double> inverse = matrix;
             kernels->invert(inverse.data(), size, stride);
-            const RowMajor rows = whole_rows(inverse, size, stride);
+            const RowMajor rows = whole_constraints(inverse, size, stride);
             CAPTURE(size, instruction_set_name(kernels->set));
             CHECK((rows.leftCols(size) - expected).norm() <= 1e-12 * expected.norm());
             CHECK(rows.rightCols(stride - size).isZero(0.0));
@@ -374,7 +374,7 @@ TEST_CASE("The dense inverse is Eigen's, and of the same bits in every instructi
     }
 }
 
-TEST_CASE("The dense product is Eigen's, and of the same bits in every instruction set") {
+TEST_CASE("The dense product is Eigen's, and has the same bits in every instruction set") {
     Random random(11);
     for (const int size : {1, 3, 15, 16, 17, 48, 90}) {
         const int stride = padded_stride(size);
@@ -383,7 +383,7 @@ TEST_CASE("The dense product is Eigen's, and of the same bits in every instructi
         AlignedVector<float> x(stride, 0.0f), baseline;
         Eigen::VectorXd right(size);
         for (int i = 0; i < size; ++i) right[i] = x[i] = static_cast<float>(random.number(-1.0, 1.0));
-        const Eigen::VectorXd expected = whole_rows(wide, size, stride).leftCols(size) * right;
+        const Eigen::VectorXd expected = whole_constraints(wide, size, stride).leftCols(size) * right;
         for (const Kernels* kernels : available()) {
             AlignedVector<float> y(stride, -7.0f);
             kernels->dense_multiply(matrix.data(), size, stride, x.data(), y.data());

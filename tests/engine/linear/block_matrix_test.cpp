@@ -13,7 +13,7 @@ TEST_CASE("The matrix product is that of the assembled dense matrix on the free 
         RandomSystem system(vertices + 100u, vertices);
         const Eigen::VectorXd x = system.random_vector();
         AlignedVector<double> points;
-        Vectors y;
+        Vec3Arrays y;
         y.resize(vertices);
         const double product = multiply(system.matrix, from_dense(x), points, y);
         Eigen::VectorXd expected = system.dense() * x;
@@ -34,7 +34,7 @@ TEST_CASE("The matrix is symmetric and positive definite, contact included") {
     CHECK(eigenvalues[0] >= 0.99 * *std::min_element(system.model.mass.begin(), system.model.mass.end()));
 }
 
-TEST_CASE("The preconditioner inverts the diagonal blocks, every contact row taken whole by weight") {
+TEST_CASE("The preconditioner inverts the diagonal blocks, every contact constraint taken whole by weight") {
     RandomSystem system(2, 21);
     std::vector<Eigen::Matrix3d> blocks;
     const std::vector<CoupledBlock> contacts = std::exchange(system.contacts, {});
@@ -47,7 +47,7 @@ TEST_CASE("The preconditioner inverts the diagonal blocks, every contact row tak
     }
     fill_matrix(system.terms, contacts, system.matrix);
     const Eigen::VectorXd r = system.random_vector();
-    Vectors z;
+    Vec3Arrays z;
     z.resize(21);
     precondition(system.matrix, from_dense(r), z, {0, z.slices()});
     for (int i = 0; i < 21; ++i) {
@@ -73,9 +73,9 @@ TEST_CASE("The block diagonal holds masses and springs, without contact and what
 
 TEST_CASE("The filter clears prescribed vertices and padding and nothing else") {
     RandomSystem system(3, 11);
-    Vectors x = from_dense(system.random_vector());
+    Vec3Arrays x = from_dense(system.random_vector());
     x.x[12] = x.y[13] = x.z[15] = 7.0;
-    const Vectors before = x;
+    const Vec3Arrays before = x;
     filter(system.matrix, x);
     for (int i = 0; i < 16; ++i) CHECK(x.at(i) == (i < 11 && system.matrix.free[i] > 0.0 ? before.at(i) : Vec3(Vec3::Zero())));
 }
@@ -97,16 +97,16 @@ TEST_CASE("Refilling the matrix leaves nothing of what was there") {
     fill_matrix(system.terms, other.contacts, refilled);
     fill_matrix(system.terms, {}, refilled);
     fill_matrix(system.terms, system.contacts, refilled);
-    const Vectors x = from_dense(system.random_vector());
+    const Vec3Arrays x = from_dense(system.random_vector());
     AlignedVector<double> points;
-    Vectors once, again;
+    Vec3Arrays once, again;
     for (auto* y : {&once, &again}) y->resize(19);
     CHECK(multiply(system.matrix, x, points, once) == multiply(refilled, x, points, again));
     CHECK(same_bits(once, again));
     CHECK(refilled.inverse == system.matrix.inverse);
 }
 
-TEST_CASE("A row between cloths enters the product exactly and the diagonal as an upper bound") {
+TEST_CASE("A constraint between cloths enters the product exactly and the diagonal as an upper bound") {
     RandomSystem system(8, 24);
     const CoupledBlock row{.vertex = {1, 20, 7, 13}, .weight = {1.0, -0.2, -0.5, -0.3}, .k = {5.0, 1.0, -0.5, 4.0, 0.3, 6.0}};
     std::fill(system.matrix.free.begin(), system.matrix.free.begin() + 24, 1.0);
@@ -114,7 +114,7 @@ TEST_CASE("A row between cloths enters the product exactly and the diagonal as a
     fill_matrix(system.terms, system.contacts, system.matrix);
     const Eigen::VectorXd x = system.random_vector();
     AlignedVector<double> points;
-    Vectors y;
+    Vec3Arrays y;
     y.resize(24);
     multiply(system.matrix, from_dense(x), points, y);
     const Eigen::VectorXd expected = system.dense() * x;

@@ -8,20 +8,20 @@
 namespace percale::test::coarsening_test {
 namespace {
 
-/// Whether each pair is at least a share of the strongest pair at one of its ends.
-std::vector<bool> pairs_above(const SpringGraph& graph, double share) {
+/// Whether each pair is at least a fraction `share` of the strongest pair at one of its ends.
+std::vector<bool> pairs_above(const SpringGraph& graph, double ratio) {
     std::vector<double> largest(graph.positions.size(), 0.0);
     for (std::size_t e = 0; e < graph.pairs.size(); ++e) {
         for (const int i : graph.pairs[e]) largest[i] = std::max(largest[i], graph.strength[e]);
     }
     std::vector<bool> strong;
     for (std::size_t e = 0; e < graph.pairs.size(); ++e) {
-        strong.push_back(graph.strength[e] >= share * std::min(largest[graph.pairs[e][0]], largest[graph.pairs[e][1]]));
+        strong.push_back(graph.strength[e] >= ratio * std::min(largest[graph.pairs[e][0]], largest[graph.pairs[e][1]]));
     }
     return strong;
 }
 
-/// How many vertices remain if each that no earlier one among them is joined to stays.
+/// The number of vertices kept greedily: each that is joined to no earlier kept one.
 std::size_t greedy_count(const SpringGraph& graph, const std::vector<bool>& strong) {
     std::vector<std::vector<int>> near(graph.positions.size());
     for (std::size_t e = 0; e < graph.pairs.size(); ++e) {
@@ -42,8 +42,8 @@ std::vector<bool> strong_pairs(const SpringGraph& graph) {
     return 5 * greedy_count(graph, strong) > 2 * graph.positions.size() ? pairs_above(graph, 0.03) : strong;
 }
 
-/// A square grid; diagonals are a share of the pairs along rows and columns.
-SpringGraph grid_with_diagonals(int n, double share) {
+/// A square grid; the strength of diagonals is `share` times that of the pairs along rows and columns.
+SpringGraph grid_with_diagonals(int n, double ratio) {
     SpringGraph graph;
     for (int i = 0; i < n * n; ++i) graph.positions.push_back(Vec3(i % n, i / n, 0.0));
     const auto join = [&](int i, int column, int row, double strength) {
@@ -55,8 +55,8 @@ SpringGraph grid_with_diagonals(int n, double share) {
     for (int i = 0; i < n * n; ++i) {
         join(i, 1, 0, 1.0);
         join(i, 0, 1, 1.0);
-        join(i, 1, 1, share);
-        join(i, -1, 1, share);
+        join(i, 1, 1, ratio);
+        join(i, -1, 1, ratio);
     }
     return graph;
 }
@@ -94,7 +94,7 @@ TEST_CASE("The kept vertices are a maximal independent set of the strong pairs")
 }
 
 TEST_CASE("Where strong pairs alone would keep half of the vertices, weaker ones count too") {
-    const auto kept = [](double share) { return coarsen(grid_with_diagonals(17, share)).kept.size(); };
+    const auto kept = [](double ratio) { return coarsen(grid_with_diagonals(17, ratio)).kept.size(); };
     CHECK(kept(0.5) == 81);    // every second of every second row
     CHECK(kept(0.1) == 81);    // although diagonals are no quarter of the strongest
     CHECK(kept(0.02) == 145);  // every second: without diagonals there is no better choice

@@ -15,7 +15,7 @@ struct Solved {
 
 Solved solve(const RandomSystem& system, const Eigen::VectorXd& b, const Eigen::VectorXd& start, const SolveTarget& target) {
     SolveSpace space;
-    Vectors x = from_dense(start);
+    Vec3Arrays x = from_dense(start);
     const SolveReport report = solve_cg(system.matrix, from_dense(b), target, space, x);
     return {report, to_dense(x, system.model.vertex_count())};
 }
@@ -53,7 +53,7 @@ TEST_CASE("A system that the preconditioner inverts takes one iteration") {
     }
     fill_matrix(system.terms, system.contacts, system.matrix);
     const Eigen::VectorXd b = system.random_vector(), start = system.prescribed_values();
-    // The inverses are held in single precision; what that leaves goes in the second iteration.
+    // The inverses are held in single precision; their rounding is corrected in the second iteration.
     const Eigen::VectorXd expected = system.solve_dense(b, start);
     const Solved solved = solve(system, b, start, {.relative_residual = 1e-5});
     CHECK(solved.report.iterations == 1);
@@ -84,13 +84,13 @@ TEST_CASE("The residual rule stops at the residual it names") {
         CHECK(free_residual(system, b, solved.x) <= target * first * (1.0 + 1e-6));
         CHECK(solved.report.iterations > before);
         before = solved.report.iterations;
-        const Solved one_less = solve(system, b, start, {.relative_residual = target, .most_iterations = before - 1});
+        const Solved one_less = solve(system, b, start, {.relative_residual = target, .max_iterations = before - 1});
         CHECK_FALSE(one_less.report.converged);
         CHECK(free_residual(system, b, one_less.x) > target * first);
     }
 }
 
-TEST_CASE("The energy rule leaves an error of about its share of the solution, in the energy norm") {
+TEST_CASE("The energy rule leaves an error of about its fraction of the solution, in the energy norm") {
     for (unsigned seed = 40; seed < 50; ++seed) {
         RandomSystem system(seed, 80);
         const Eigen::VectorXd b = system.random_vector(), start = system.prescribed_values();
@@ -110,11 +110,11 @@ TEST_CASE("The absolute energy rule works alone and stops sooner the more is all
     const Eigen::VectorXd exact = system.solve_dense(b, start);
     const double whole = energy_norm(a, exact - start);
     int before = 2000;
-    for (const double share : {1e-4, 1e-3, 1e-2}) {
-        const Solved solved = solve(system, b, start, {.absolute_gain = share * share * whole * whole});
+    for (const double ratio : {1e-4, 1e-3, 1e-2}) {
+        const Solved solved = solve(system, b, start, {.absolute_gain = ratio * ratio * whole * whole});
         CHECK(solved.report.converged);
         CHECK(solved.report.iterations < before);
-        CHECK(energy_norm(a, solved.x - exact) <= share * whole);
+        CHECK(energy_norm(a, solved.x - exact) <= ratio * whole);
         before = solved.report.iterations;
     }
 }
@@ -122,7 +122,7 @@ TEST_CASE("The absolute energy rule works alone and stops sooner the more is all
 TEST_CASE("The iteration limit is kept and reported as not converged") {
     RandomSystem system(34, 50);
     const Eigen::VectorXd b = system.random_vector(), start = system.prescribed_values();
-    const Solved solved = solve(system, b, start, {.relative_residual = 1e-14, .most_iterations = 3});
+    const Solved solved = solve(system, b, start, {.relative_residual = 1e-14, .max_iterations = 3});
     CHECK(solved.report.iterations == 3);
     CHECK_FALSE(solved.report.converged);
 }
@@ -131,7 +131,7 @@ TEST_CASE("A second solve in the same work space has the same bits") {
     RandomSystem system(35, 30), small(36, 5);
     const Eigen::VectorXd b = system.random_vector(), start = system.prescribed_values();
     SolveSpace space;
-    Vectors first = from_dense(start), second = from_dense(start), other = from_dense(Eigen::VectorXd::Zero(15));
+    Vec3Arrays first = from_dense(start), second = from_dense(start), other = from_dense(Eigen::VectorXd::Zero(15));
     solve_cg(system.matrix, from_dense(b), {.relative_residual = 1e-8}, space, first);
     solve_cg(small.matrix, from_dense(small.random_vector()), {.relative_residual = 1e-8}, space, other);
     solve_cg(system.matrix, from_dense(b), {.relative_residual = 1e-8}, space, second);

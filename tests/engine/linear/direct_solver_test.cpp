@@ -10,7 +10,7 @@ namespace {
 
 void check_against_dense(DirectSolver& solver, RandomSystem& system) {
     const Eigen::VectorXd b = system.random_vector(), start = system.prescribed_values(), expected = system.solve_dense(b, start);
-    Vectors x = from_dense(start);
+    Vec3Arrays x = from_dense(start);
     REQUIRE(solver.solve(system.matrix, from_dense(b), x));
     CHECK((to_dense(x, system.model.vertex_count()) - expected).norm() <= 1e-9 * expected.norm());
     for (int i = 0; i < system.model.vertex_count(); ++i) {
@@ -33,7 +33,7 @@ TEST_CASE("One direct solver follows changes of values, contacts, pins and size"
     DirectSolver solver;
     RandomSystem system(210, 40), other(211, 25);
     check_against_dense(solver, system);
-    system.positions = to_vectors(random_points(system.random, 40, 0.7));
+    system.positions = to_vec3_arrays(random_points(system.random, 40, 0.7));
     system.evaluate();
     fill_matrix(system.terms, system.contacts, system.matrix);
     check_against_dense(solver, system);
@@ -54,7 +54,7 @@ TEST_CASE("A matrix that is not positive definite is refused") {
         {.vertex = {5, -1, -1, -1}, .weight = {1.0, 0.0, 0.0, 0.0}, .k = {-1e6, 0.0, 0.0, -1e6, 0.0, -1e6}});
     fill_matrix(system.terms, system.contacts, system.matrix);
     DirectSolver solver;
-    Vectors x = from_dense(Eigen::VectorXd::Zero(36));
+    Vec3Arrays x = from_dense(Eigen::VectorXd::Zero(36));
     CHECK_FALSE(solver.solve(system.matrix, from_dense(system.random_vector()), x));
 }
 
@@ -63,7 +63,7 @@ TEST_CASE("With every vertex prescribed there is nothing to solve") {
     std::fill(system.matrix.free.begin(), system.matrix.free.end(), 0.0);
     fill_matrix(system.terms, system.contacts, system.matrix);
     const Eigen::VectorXd start = system.random_vector();
-    Vectors x = from_dense(start);
+    Vec3Arrays x = from_dense(start);
     DirectSolver solver;
     CHECK(solver.solve(system.matrix, from_dense(system.random_vector()), x));
     CHECK(to_dense(x, 10) == start);

@@ -22,7 +22,7 @@ struct Prepared {
         solver.matrix.free = sheet.matrix.free;
         solver.fill(sheet.terms, sheet.contacts);
     }
-    SolveReport solve(const SheetSystem& sheet, double tolerance, Vectors& x) {
+    SolveReport solve(const SheetSystem& sheet, double tolerance, Vec3Arrays& x) {
         x.resize(sheet.count());
         return solver.solve(sheet.right, {.relative_residual = tolerance}, x);
     }
@@ -33,13 +33,13 @@ struct Prepared {
 TEST_CASE("Every choice solves the same system to the same answer") {
     SheetSystem sheet(1, 21, 0.4);
     sheet.pin_share(0.05);
-    sheet.touch_share(0.3, 0.1, 100.0);
-    Vectors exact;
+    sheet.add_contacts(0.3, 0.1, 100.0);
+    Vec3Arrays exact;
     Prepared direct(sheet, LinearSolver::direct);
     CHECK(direct.solve(sheet, 0.0, exact).converged);
     for (const LinearSolver choice : all_choices) {
         Prepared prepared(sheet, choice);
-        Vectors x;
+        Vec3Arrays x;
         for (int solves = 0; solves < 3; ++solves) {
             const SolveReport report = prepared.solve(sheet, 1e-10, x);
             CAPTURE(static_cast<int>(choice), solves, report.iterations);
@@ -55,7 +55,7 @@ TEST_CASE("A choice that was asked for stays") {
     const SheetSystem sheet(2, 17, 0.3);
     for (const LinearSolver choice : {LinearSolver::cg, LinearSolver::multigrid, LinearSolver::direct}) {
         Prepared prepared(sheet, choice);
-        Vectors x;
+        Vec3Arrays x;
         for (int solves = 0; solves < 2; ++solves) {
             prepared.solve(sheet, 1e-12, x);
             prepared.solver.fill(sheet.terms, {});
@@ -68,7 +68,7 @@ TEST_CASE("The automatic choice begins with block Jacobi and keeps it while solv
     const SheetSystem sheet(3, 33, 0.3);
     Prepared prepared(sheet, LinearSolver::automatic);
     CHECK(prepared.solver.in_use() == LinearSolver::cg);
-    Vectors x;
+    Vec3Arrays x;
     const SolveReport report = prepared.solve(sheet, 0.5, x);
     REQUIRE(report.iterations < 20);
     CHECK(prepared.solver.in_use() == LinearSolver::cg);
@@ -77,7 +77,7 @@ TEST_CASE("The automatic choice begins with block Jacobi and keeps it while solv
 TEST_CASE("The automatic choice changes to multigrid in the midst of a dear solve, and the next is cheaper") {
     const SheetSystem sheet(4, 33, 0.3);
     Prepared prepared(sheet, LinearSolver::automatic), jacobi(sheet, LinearSolver::cg), multigrid(sheet, LinearSolver::multigrid);
-    Vectors x, by_jacobi;
+    Vec3Arrays x, by_jacobi;
     const SolveReport dear = prepared.solve(sheet, 1e-6, x), dearest = jacobi.solve(sheet, 1e-6, by_jacobi);
     CHECK(dear.converged);
     CHECK(dear.iterations < dearest.iterations);
@@ -106,7 +106,7 @@ TEST_CASE("The automatic choice factorises small cloth of moduli with slivers, a
     CHECK(begins_with(springs) == LinearSolver::cg);
     CHECK(begins_with(sliver) == LinearSolver::direct);
     CHECK(begins_with(even) == LinearSolver::cg);
-    solver.begin_with(LinearSolver::direct);  // what was in use for the model before
+    solver.begin_with(LinearSolver::direct);  // the solver of the model before
     CHECK(begins_with(even) == LinearSolver::cg);
     CHECK(begins_with(sliver) == LinearSolver::direct);
 }
@@ -114,7 +114,7 @@ TEST_CASE("The automatic choice factorises small cloth of moduli with slivers, a
 TEST_CASE("Another model starts anew") {
     const SheetSystem sheet(5, 33, 0.3), other(6, 9, 0.3);
     Prepared prepared(sheet, LinearSolver::automatic), fresh(other, LinearSolver::automatic);
-    Vectors x, expected;
+    Vec3Arrays x, expected;
     prepared.solve(sheet, 1e-6, x);
     REQUIRE(prepared.solver.in_use() == LinearSolver::multigrid);
     CHECK(prepared.solver.is_for(sheet.model));
@@ -132,7 +132,7 @@ TEST_CASE("A solver that was asked for serves one model after the other") {
     const SheetSystem sheet(8, 21, 0.3), other(9, 21, 0.3);
     for (const LinearSolver choice : {LinearSolver::cg, LinearSolver::multigrid, LinearSolver::direct}) {
         Prepared prepared(sheet, choice), fresh(other, choice);
-        Vectors x, expected;
+        Vec3Arrays x, expected;
         prepared.solve(sheet, 1e-8, x);
         prepared.prepare(other, choice);
         prepared.solve(other, 1e-8, x);
@@ -141,7 +141,7 @@ TEST_CASE("A solver that was asked for serves one model after the other") {
     }
     Prepared prepared(sheet, LinearSolver::multigrid);
     const SheetSystem larger(10, 33, 0.3);
-    Vectors x;
+    Vec3Arrays x;
     prepared.solve(sheet, 1e-8, x);
     prepared.prepare(larger, LinearSolver::multigrid);
     CHECK(prepared.solve(larger, 1e-8, x).converged);
@@ -150,34 +150,34 @@ TEST_CASE("A solver that was asked for serves one model after the other") {
 
 TEST_CASE("The estimate is near the solution with multigrid and refused without") {
     SheetSystem sheet(7, 25, 0.3);
-    Vectors b = sheet.right, exact, estimate;
+    Vec3Arrays b = sheet.right, exact, estimate;
     filter(sheet.matrix, b);
     Prepared multigrid(sheet, LinearSolver::multigrid), jacobi(sheet, LinearSolver::cg);
     multigrid.solve(sheet, 1e-10, exact);
     REQUIRE(multigrid.solver.estimate(b, estimate));
     CHECK(sheet.energy_norm(difference(estimate, exact)) <= 0.6 * sheet.energy_norm(exact));
     CHECK_FALSE(jacobi.solver.estimate(b, estimate));
-    Vectors zero;
+    Vec3Arrays zero;
     zero.resize(sheet.count());
     CHECK_FALSE(multigrid.solver.estimate(zero, estimate));
 }
 
 TEST_CASE("The estimate of what a step would gain is within a factor of three") {
     for (const int side : {17, 33, 65}) {
-        for (const double share : {0.0, 0.3}) {
+        for (const double ratio : {0.0, 0.3}) {
             SheetSystem sheet(static_cast<unsigned>(side) + 30u, side, 0.3);
-            sheet.pin_share(0.1 * share);
-            sheet.touch_share(share, 0.1, 1e3);
+            sheet.pin_share(0.1 * ratio);
+            sheet.add_contacts(ratio, 0.1, 1e3);
             Prepared prepared(sheet, LinearSolver::multigrid);
-            Vectors smooth = sheet.right;
+            Vec3Arrays smooth = sheet.right;
             filter(sheet.matrix, smooth);
-            for (const Vectors& r : {smooth, sheet.random_vector()}) {
-                Vectors exact, z;
+            for (const Vec3Arrays& r : {smooth, sheet.random_vector()}) {
+                Vec3Arrays exact, z;
                 exact.resize(sheet.count());
                 REQUIRE(prepared.solver.solve(r, {.relative_residual = 1e-9}, exact).converged);
                 REQUIRE(prepared.solver.estimate(r, z));
                 const double decrement = dot(compute, r, exact), estimate = dot(compute, r, z);
-                CAPTURE(side, share, estimate / decrement);
+                CAPTURE(side, ratio, estimate / decrement);
                 CHECK(estimate <= 3.0 * decrement);
                 CHECK(decrement <= 3.0 * estimate);
             }
@@ -188,11 +188,11 @@ TEST_CASE("The estimate of what a step would gain is within a factor of three") 
 TEST_CASE("Scaling the residual scales its estimate, however large or small, and what was there is replaced") {
     const SheetSystem sheet(11, 17, 0.3);
     Prepared prepared(sheet, LinearSolver::multigrid);
-    Vectors r = sheet.right, z, scaled_z = sheet.right;
+    Vec3Arrays r = sheet.right, z, scaled_z = sheet.right;
     filter(sheet.matrix, r);
     REQUIRE(prepared.solver.estimate(r, z));
     for (const double factor : {0x1p-200, 0x1p-60, 0x1p60, 0x1p200}) {
-        Vectors scaled;
+        Vec3Arrays scaled;
         scaled.resize(sheet.count());
         add_scaled(scaled, factor, r);
         REQUIRE(prepared.solver.estimate(scaled, scaled_z));
@@ -203,7 +203,7 @@ TEST_CASE("Scaling the residual scales its estimate, however large or small, and
 TEST_CASE("Nothing is estimated of a residual that is not finite") {
     const SheetSystem sheet(12, 17, 0.3);
     Prepared prepared(sheet, LinearSolver::multigrid);
-    Vectors r = sheet.right, z;
+    Vec3Arrays r = sheet.right, z;
     r.x[20] = std::numeric_limits<double>::quiet_NaN();
     CHECK_FALSE(prepared.solver.estimate(r, z));
     r.x[20] = 1e200;
@@ -214,9 +214,9 @@ TEST_CASE("With coarser levels kept from another state the answer is the same") 
     for (const int side : {17, 33, 48}) {
         const SheetSystem first(1, side, 0.05);
         SheetSystem later(2, side, 0.5, Vec3(1.1, 1.0, 0.8));
-        later.touch_share(0.3, 0.1, 1e3);
+        later.add_contacts(0.3, 0.1, 1e3);
         Prepared kept(first, LinearSolver::multigrid), fresh(later, LinearSolver::multigrid);
-        Vectors x, expected;
+        Vec3Arrays x, expected;
         kept.solve(first, 1e-6, x);
         fresh.solve(later, 1e-10, expected);
         for (int solves = 0; solves < 4; ++solves) {
@@ -233,7 +233,7 @@ TEST_CASE("With coarser levels kept from another state the answer is the same") 
 TEST_CASE("A new part of a step starts with coarser levels of its own matrix") {
     const SheetSystem first(1, 33, 0.05), later(2, 33, 0.5, Vec3(1.1, 1.0, 0.8));
     Prepared reused(first, LinearSolver::multigrid), fresh(later, LinearSolver::multigrid);
-    Vectors x, expected;
+    Vec3Arrays x, expected;
     reused.solve(first, 1e-6, x);
     reused.solver.start_stage();
     reused.solver.fill(later.terms, later.contacts);
@@ -243,16 +243,16 @@ TEST_CASE("A new part of a step starts with coarser levels of its own matrix") {
 
 namespace {
 
-/// A ball of an amount of gas that presses it out, stretched by a tenth, and what the gas is in the matrix.
+/// A ball of gas that presses it out, stretched by a tenth, and the gas in the matrix.
 struct FilledBall {
     SheetSystem system;
-    Vectors positions;
+    Vec3Arrays positions;
     Forces forces;
 
     FilledBall() : system(5, filled_model(), 0.0, 1.1 * Vec3::Ones()) {
         std::vector<Vec3> places = system.model.rest;
         for (Vec3& x : places) x *= 1.1;
-        positions = to_vectors(places);
+        positions = to_vec3_arrays(places);
         forces.total.resize(system.count());
         pressure_term().add({.compute = &compute,
                              .model = &system.model,
@@ -262,14 +262,14 @@ struct FilledBall {
                              .with_matrix = true},
                             forces);
         system.pin_share(0.1);
-        system.matrix.enclosed = forces.enclosed;
+        system.matrix.pressure_blocks = forces.pressure_blocks;
         system.matrix.positions = &positions;
     }
 
-    /// What prescribed vertices do, 0 at the others.
-    Vectors moving_pins() const {
+    /// The motion of prescribed vertices, 0 at the others.
+    Vec3Arrays moving_pins() const {
         Random own(8);
-        Vectors x = system.zeros();
+        Vec3Arrays x = system.zeros();
         for (int i = 0; i < system.count(); ++i) {
             if (system.matrix.free[i] == 0.0) x.set(i, own.point(0.1));
         }
@@ -285,9 +285,9 @@ struct FilledBall {
 
 }  // namespace
 
-TEST_CASE("Every choice takes enclosed blocks into account, beside pins that move") {
+TEST_CASE("Every choice takes pressure blocks into account, beside pins that move") {
     FilledBall ball;
-    const Vectors pins = ball.moving_pins();
+    const Vec3Arrays pins = ball.moving_pins();
     const double before = ball.system.residual(ball.system.right, pins);
     for (const LinearSolver choice : all_choices) {
         StepSolver solver;
@@ -295,8 +295,8 @@ TEST_CASE("Every choice takes enclosed blocks into account, beside pins that mov
         solver.matrix.free = ball.system.matrix.free;
         for (int solves = 0; solves < 2; ++solves) {
             solver.fill(ball.system.terms, {});
-            solver.add_enclosed(ball.forces.enclosed, ball.positions);
-            Vectors x = pins;
+            solver.add_pressure_blocks(ball.forces.pressure_blocks, ball.positions);
+            Vec3Arrays x = pins;
             const SolveReport report = solver.solve(ball.system.right, {.relative_residual = 1e-8}, x);
             CAPTURE(static_cast<int>(choice), report.iterations);
             CHECK(report.converged);
@@ -305,16 +305,16 @@ TEST_CASE("Every choice takes enclosed blocks into account, beside pins that mov
     }
 }
 
-TEST_CASE("Where enclosed blocks leave no positive definite matrix, the answer still leads downhill") {
+TEST_CASE("Where pressure blocks leave no positive definite matrix, the answer still leads downhill") {
     FilledBall ball;
-    ball.forces.enclosed[0].load = 1e3;  // far beyond what tension holds
+    ball.forces.pressure_blocks[0].load = 1e3;  // far beyond what tension holds
     for (const LinearSolver choice : {LinearSolver::cg, LinearSolver::multigrid, LinearSolver::direct}) {
         StepSolver solver;
         solver.set_model(compute, ball.system.model, choice);
         solver.matrix.free = ball.system.matrix.free;
         solver.fill(ball.system.terms, {});
-        solver.add_enclosed(ball.forces.enclosed, ball.positions);
-        Vectors x = ball.system.zeros();
+        solver.add_pressure_blocks(ball.forces.pressure_blocks, ball.positions);
+        Vec3Arrays x = ball.system.zeros();
         CHECK_FALSE(solver.solve(ball.system.right, {.relative_residual = 1e-8}, x).converged);
         CHECK(dot(compute, ball.system.right, x) > 0.0);
     }

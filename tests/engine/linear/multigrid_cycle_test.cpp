@@ -8,9 +8,9 @@
 namespace percale::test::multigrid_cycle_test {
 namespace {
 
-/// Rows of three vertices, of which many share some, and of one.
-void touch_by_rows(SheetSystem& sheet, int rows) {
-    sheet.touch_share(0.1, 1.0, 1e3);
+/// Constraints of three vertices, of which many share some, and of one.
+void contact_by_constraints(SheetSystem& sheet, int rows) {
+    sheet.add_contacts(0.1, 1.0, 1e3);
     for (int row = 0; row < rows; ++row) {
         const int first = sheet.random.index(sheet.count() / 4);
         CoupledBlock block = sheet.contacts.at(row % 100);
@@ -23,11 +23,11 @@ void touch_by_rows(SheetSystem& sheet, int rows) {
 
 struct Cycled {
     AlignedVector<float> correction, product;
-    Vectors solution;
+    Vec3Arrays solution;
     int iterations = 0;
 };
 
-Cycled cycled(const SheetSystem& sheet, const Compute& on, const Vectors& r) {
+Cycled cycled(const SheetSystem& sheet, const Compute& on, const Vec3Arrays& r) {
     Multigrid multigrid(on, sheet.model.adjacency, sheet.model.rest);
     multigrid.fill(sheet.matrix, Multigrid::Coarser::filled);
     Cycled result;
@@ -38,28 +38,28 @@ Cycled cycled(const SheetSystem& sheet, const Compute& on, const Vectors& r) {
     multigrid.multiply(result.correction, result.product);
     MultigridSpace space;
     result.solution = sheet.zeros();
-    const SolveTarget target{.relative_residual = 1e-6, .most_iterations = 200};
+    const SolveTarget target{.relative_residual = 1e-6, .max_iterations = 200};
     result.iterations = solve_multigrid(sheet.matrix, multigrid, r, target, space, result.solution).iterations;
     return result;
 }
 
 }  // namespace
 
-TEST_CASE("Rows that share vertices act on each as the exact matrix says") {
+TEST_CASE("Constraints that share vertices act on each as the exact matrix does") {
     SheetSystem sheet(5, 33, 0.4);
     sheet.pin_share(0.1);
-    touch_by_rows(sheet, 700);
+    contact_by_constraints(sheet, 700);
     Multigrid multigrid(compute, sheet.model.adjacency, sheet.model.rest);
     multigrid.fill(sheet.matrix, Multigrid::Coarser::filled);
-    const Vectors x = sheet.random_vector();
+    const Vec3Arrays x = sheet.random_vector();
     AlignedVector<float> narrow(3 * multigrid.padded()), product(3 * multigrid.padded());
     compute.kernels->to_float(1.0, x.axes(), {narrow.data(), multigrid.padded()}, {0, x.slices()});
     multigrid.multiply(narrow, product);
     AlignedVector<double> points;
-    Vectors expected = x, found = sheet.zeros();
+    Vec3Arrays expected = x, found = sheet.zeros();
     multiply(sheet.matrix, x, points, expected);
     compute.kernels->add_float(1.0, {product.data(), multigrid.padded()}, found.axes(), {0, x.slices()});
-    const Vectors error = difference(found, expected);
+    const Vec3Arrays error = difference(found, expected);
     CHECK(std::sqrt(dot(compute, error, error)) <= 1e-6 * std::sqrt(dot(compute, expected, expected)));
     for (int i = 0; i < sheet.count(); ++i) CHECK((sheet.matrix.free[i] > 0.0 || found.at(i) == Vec3::Zero()));
 }
@@ -68,9 +68,9 @@ TEST_CASE("Cycles, products and solves have the same bits for any number of thre
     const bool itself = GENERATE(false, true);
     SheetSystem sheet(6, 97, 0.2);
     sheet.pin_share(0.02);
-    touch_by_rows(sheet, 1500);
-    if (itself) sheet.touch_itself(1500, 3.0);
-    const Vectors r = sheet.random_vector();
+    contact_by_constraints(sheet, 1500);
+    if (itself) sheet.add_self_contacts(1500, 3.0);
+    const Vec3Arrays r = sheet.random_vector();
     const Cycled alone = cycled(sheet, compute, r);
     CHECK(alone.iterations > 5);
     for (const int threads : {2, 3, 6}) {

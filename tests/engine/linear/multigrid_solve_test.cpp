@@ -12,10 +12,10 @@ namespace {
 
 struct Solved {
     SolveReport report;
-    Vectors x;
+    Vec3Arrays x;
 };
 
-Solved solve(const SheetSystem& system, const Vectors& b, const Vectors& start, const SolveTarget& target) {
+Solved solve(const SheetSystem& system, const Vec3Arrays& b, const Vec3Arrays& start, const SolveTarget& target) {
     Multigrid multigrid(compute, system.model.adjacency, system.model.rest);
     multigrid.fill(system.matrix, Multigrid::Coarser::filled);
     MultigridSpace space;
@@ -25,8 +25,8 @@ Solved solve(const SheetSystem& system, const Vectors& b, const Vectors& start, 
 }
 
 /// Random where vertices are prescribed, 0 elsewhere.
-Vectors prescribed(SheetSystem& system) {
-    Vectors x = system.zeros();
+Vec3Arrays prescribed(SheetSystem& system) {
+    Vec3Arrays x = system.zeros();
     for (int i = 0; i < system.count(); ++i) {
         const Vec3 value = system.random.point(1.0);
         if (system.matrix.free[i] == 0.0) x.set(i, value);
@@ -36,29 +36,29 @@ Vectors prescribed(SheetSystem& system) {
 
 void touch_and_pin(SheetSystem& system) {
     system.pin_share(0.05);
-    system.touch_share(0.3, 0.1, 1e3);
+    system.add_contacts(0.3, 0.1, 1e3);
 }
 
-Vectors direct_solution(const SheetSystem& system, const Vectors& b, const Vectors& start) {
-    Vectors x = start;
+Vec3Arrays direct_solution(const SheetSystem& system, const Vec3Arrays& b, const Vec3Arrays& start) {
+    Vec3Arrays x = start;
     DirectSolver direct;
     REQUIRE(direct.solve(system.matrix, b, x));
     return x;
 }
 
 /// The answer is that of the direct solver, found within the iterations allowed.
-void check_solution(SheetSystem& system, int most_iterations) {
-    const Vectors start = prescribed(system);
-    const Solved solved = solve(system, system.right, start, {.relative_residual = 1e-9, .most_iterations = most_iterations});
+void check_solution(SheetSystem& system, int max_iterations) {
+    const Vec3Arrays start = prescribed(system);
+    const Solved solved = solve(system, system.right, start, {.relative_residual = 1e-9, .max_iterations = max_iterations});
     CAPTURE(system.count(), solved.report.iterations);
     CHECK(solved.report.converged);
     CHECK(system.residual(system.right, solved.x) <= 1e-9 * system.residual(system.right, start));
-    const Vectors exact = direct_solution(system, system.right, start);
+    const Vec3Arrays exact = direct_solution(system, system.right, start);
     CHECK(system.energy_norm(difference(solved.x, exact)) <= 1e-5 * system.energy_norm(difference(exact, start)));
 }
 
 /// Prescribed entries have the bits they had.
-void check_kept(const SheetSystem& system, const Vectors& start, const Vectors& x) {
+void check_kept(const SheetSystem& system, const Vec3Arrays& start, const Vec3Arrays& x) {
     for (int i = 0; i < system.count(); ++i) {
         if (system.matrix.free[i] == 0.0) CHECK(x.at(i) == start.at(i));
     }
@@ -106,7 +106,7 @@ TEST_CASE("The residual asked for is reached in double precision, prescribed ent
     for (const int side : {9, 17, 33}) {
         SheetSystem sheet(static_cast<unsigned>(side), side, 0.3);
         touch_and_pin(sheet);
-        const Vectors start = prescribed(sheet);
+        const Vec3Arrays start = prescribed(sheet);
         const double first = sheet.residual(sheet.right, start);
         int before = 0;
         for (const double target : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10}) {
@@ -122,41 +122,41 @@ TEST_CASE("The residual asked for is reached in double precision, prescribed ent
     }
 }
 
-TEST_CASE("What counts as converged is at the residual asked for, whatever limits the iterations") {
+TEST_CASE("A converged solve is at the target residual, whatever limits the iterations") {
     SheetSystem sheet(1, 25, 0.3);
     touch_and_pin(sheet);
-    const Vectors start = prescribed(sheet);
+    const Vec3Arrays start = prescribed(sheet);
     const double first = sheet.residual(sheet.right, start);
     for (int most = 1; most <= 40; ++most) {
-        const Solved solved = solve(sheet, sheet.right, start, {.relative_residual = 1e-8, .most_iterations = most});
+        const Solved solved = solve(sheet, sheet.right, start, {.relative_residual = 1e-8, .max_iterations = most});
         CAPTURE(most);
         CHECK(solved.report.iterations <= most);
         if (solved.report.converged) CHECK(sheet.residual(sheet.right, solved.x) <= 1e-8 * first);
     }
-    const Solved cut = solve(sheet, sheet.right, start, {.relative_residual = 1e-8, .most_iterations = 3});
+    const Solved cut = solve(sheet, sheet.right, start, {.relative_residual = 1e-8, .max_iterations = 3});
     CHECK(cut.report.iterations == 3);
     CHECK_FALSE(cut.report.converged);
     CHECK(sheet.residual(sheet.right, cut.x) < first);
 }
 
-TEST_CASE("The energy rule leaves an error of about its share of the solution") {
+TEST_CASE("The energy rule leaves an error of about its fraction of the solution") {
     for (const int side : {17, 33, 48}) {
         SheetSystem sheet(static_cast<unsigned>(side) + 20u, side, 0.2);
-        sheet.touch_share(0.2, 0.1, 10.0);
-        const Vectors start = prescribed(sheet), exact = direct_solution(sheet, sheet.right, start);
+        sheet.add_contacts(0.2, 0.1, 10.0);
+        const Vec3Arrays start = prescribed(sheet), exact = direct_solution(sheet, sheet.right, start);
         const double whole = sheet.energy_norm(difference(exact, start));
         int before = 0;
-        for (const double share : {0.3, 0.05, 0.01, 1e-3}) {
-            const Solved solved = solve(sheet, sheet.right, start, {.relative_gain = share});
+        for (const double ratio : {0.3, 0.05, 0.01, 1e-3}) {
+            const Solved solved = solve(sheet, sheet.right, start, {.relative_gain = ratio});
             const double error = sheet.energy_norm(difference(solved.x, exact));
-            CAPTURE(side, share, solved.report.iterations, error / whole);
+            CAPTURE(side, ratio, solved.report.iterations, error / whole);
             CHECK(solved.report.converged);
-            CHECK(error <= 1.5 * share * whole);
+            CHECK(error <= 1.5 * ratio * whole);
             CHECK(solved.report.iterations >= before);
             before = solved.report.iterations;
-            const Solved absolute = solve(sheet, sheet.right, start, {.absolute_gain = share * share * whole * whole});
+            const Solved absolute = solve(sheet, sheet.right, start, {.absolute_gain = ratio * ratio * whole * whole});
             CHECK(absolute.report.converged);
-            CHECK(sheet.energy_norm(difference(absolute.x, exact)) <= 1.5 * share * whole);
+            CHECK(sheet.energy_norm(difference(absolute.x, exact)) <= 1.5 * ratio * whole);
         }
     }
 }
@@ -172,7 +172,7 @@ TEST_CASE("A right side of zero takes no iteration of multigrid") {
 TEST_CASE("Multigrid leaves alone what is prescribed everywhere") {
     SheetSystem sheet(3, 17, 0.3);
     sheet.pin_share(1.1);
-    const Vectors start = prescribed(sheet);
+    const Vec3Arrays start = prescribed(sheet);
     const Solved solved = solve(sheet, sheet.right, start, {.relative_residual = 1e-6});
     CHECK(solved.report.converged);
     CHECK(same_bits(solved.x, start));
@@ -181,7 +181,7 @@ TEST_CASE("Multigrid leaves alone what is prescribed everywhere") {
 TEST_CASE("A right side that is not finite ends without an answer") {
     SheetSystem sheet(4, 17, 0.3);
     for (const double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-        Vectors b = sheet.right;
+        Vec3Arrays b = sheet.right;
         b.y[100] = value;
         CHECK_FALSE(solve(sheet, b, sheet.zeros(), {.relative_residual = 1e-6}).report.converged);
         CHECK_FALSE(solve(sheet, b, sheet.zeros(), {.relative_gain = 0.05}).report.converged);
@@ -192,10 +192,10 @@ TEST_CASE("Large and small right sides are solved alike") {
     SheetSystem sheet(5, 17, 0.3);
     const Solved plain = solve(sheet, sheet.right, sheet.zeros(), {.relative_residual = 1e-8});
     for (const double factor : {0x1p-200, 0x1p-30, 0x1p30, 0x1p200}) {
-        Vectors b = sheet.zeros();
+        Vec3Arrays b = sheet.zeros();
         add_scaled(b, factor, sheet.right);
         const Solved solved = solve(sheet, b, sheet.zeros(), {.relative_residual = 1e-8});
-        Vectors scaled = sheet.zeros();
+        Vec3Arrays scaled = sheet.zeros();
         add_scaled(scaled, 1.0 / factor, solved.x);
         CHECK(solved.report.converged);
         CHECK(solved.report.iterations == plain.report.iterations);
@@ -203,11 +203,11 @@ TEST_CASE("Large and small right sides are solved alike") {
     }
 }
 
-TEST_CASE("Clothes of a few vertices are solved, free, pinned and touching") {
+TEST_CASE("Clothes of a few vertices are solved, free, pinned and in contact") {
     for (int count = 1; count <= 40; ++count) {
         SheetSystem system(static_cast<unsigned>(count), rope(count), 0.03);
         check_solution(system, 200);
-        system.touch_share(0.5, 0.1, 1e3);
+        system.add_contacts(0.5, 0.1, 1e3);
         check_solution(system, 200);
         system.pin_share(0.2);
         check_solution(system, 200);
@@ -260,11 +260,11 @@ TEST_CASE("A second solve in the same work space has the same bits, whatever was
     const auto run = [&](const SheetSystem& system) {
         Multigrid multigrid(compute, system.model.adjacency, system.model.rest);
         multigrid.fill(system.matrix, Multigrid::Coarser::filled);
-        Vectors x = system.zeros();
+        Vec3Arrays x = system.zeros();
         CHECK(solve_multigrid(system.matrix, multigrid, system.right, {.relative_residual = 1e-7}, space, x).converged);
         return x;
     };
-    const Vectors first = run(sheet);
+    const Vec3Arrays first = run(sheet);
     for (const SheetSystem* between : {&small, &free}) {
         run(*between);
         CHECK(same_bits(run(sheet), first));
@@ -274,9 +274,9 @@ TEST_CASE("A second solve in the same work space has the same bits, whatever was
 TEST_CASE("A net limit keeps both solvers going until the sum of the residuals is below it, too") {
     SheetSystem system(91, 17, 0.3);
     system.matrix.free.assign(system.matrix.free.size(), 1.0);
-    system.touch_share(0.3, 10.0, 1e4);
-    const auto net_of = [&](const Vectors& x) {
-        Vectors r = system.right;
+    system.add_contacts(0.3, 10.0, 1e4);
+    const auto net_of = [&](const Vec3Arrays& x) {
+        Vec3Arrays r = system.right;
         AlignedVector<double> space;
         set_residual(system.matrix, system.right, x, space, r);
         Vec3 sum = Vec3::Zero();
@@ -300,7 +300,7 @@ TEST_CASE("A net limit keeps both solvers going until the sum of the residuals i
         CHECK(loose.report.converged);
         CHECK(kept.report.converged);
         CHECK(kept.report.iterations > loose.report.iterations);
-        CHECK(net_of(kept.x) <= limit[0].most + 1e-5 * start);
+        CHECK(net_of(kept.x) <= limit[0].max_momentum + 1e-5 * start);
     }
 }
 

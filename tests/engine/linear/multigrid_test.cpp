@@ -12,12 +12,12 @@
 namespace percale::test::multigrid_test {
 namespace {
 
-Vectors cycle(Multigrid& multigrid, const Vectors& r) {
+Vec3Arrays cycle(Multigrid& multigrid, const Vec3Arrays& r) {
     const Slices all{0, r.slices()};
     const double scale = std::sqrt(dot(compute, r, r));
     compute.kernels->to_float(1.0 / scale, r.axes(), {multigrid.residual().data(), multigrid.padded()}, all);
     multigrid.cycle();
-    Vectors z;
+    Vec3Arrays z;
     z.resize(static_cast<int>(r.padded_size()));
     compute.kernels->add_float(scale, {multigrid.correction().data(), multigrid.padded()}, z.axes(), all);
     return z;
@@ -25,27 +25,27 @@ Vectors cycle(Multigrid& multigrid, const Vectors& r) {
 
 struct Solved {
     SolveReport report;
-    Vectors x;
+    Vec3Arrays x;
 };
 
-Solved solve(const SheetSystem& sheet, const Vectors& b, double tolerance) {
+Solved solve(const SheetSystem& sheet, const Vec3Arrays& b, double tolerance) {
     Multigrid multigrid(compute, sheet.model.adjacency, sheet.model.rest);
     multigrid.fill(sheet.matrix, Multigrid::Coarser::filled);
     MultigridSpace space;
     Solved solved;
     solved.x.resize(sheet.count());
     solved.report =
-        solve_multigrid(sheet.matrix, multigrid, b, {.relative_residual = tolerance, .most_iterations = 300}, space, solved.x);
+        solve_multigrid(sheet.matrix, multigrid, b, {.relative_residual = tolerance, .max_iterations = 300}, space, solved.x);
     return solved;
 }
 
 /// Iterations to 1e-4 for the step's own right side, or a random one, whichever takes more.
 int iterations(SheetSystem& sheet) {
     int most = 0;
-    for (const Vectors& b : {sheet.right, sheet.random_vector()}) {
+    for (const Vec3Arrays& b : {sheet.right, sheet.random_vector()}) {
         const Solved solved = solve(sheet, b, 1e-4);
         CHECK(solved.report.converged);
-        Vectors filtered = b;
+        Vec3Arrays filtered = b;
         filter(sheet.matrix, filtered);
         CHECK(sheet.residual(b, solved.x) <= 1.001e-4 * std::sqrt(dot(compute, filtered, filtered)));
         most = std::max(most, solved.report.iterations);
@@ -56,26 +56,26 @@ int iterations(SheetSystem& sheet) {
 void check_float_product(SheetSystem& sheet) {
     Multigrid multigrid(compute, sheet.model.adjacency, sheet.model.rest);
     multigrid.fill(sheet.matrix, Multigrid::Coarser::filled);
-    const Vectors x = sheet.random_vector();
+    const Vec3Arrays x = sheet.random_vector();
     const std::size_t padded = multigrid.padded();
     AlignedVector<float> narrow(3 * padded), product(3 * padded);
     compute.kernels->to_float(1.0, x.axes(), {narrow.data(), padded}, {0, x.slices()});
     multigrid.multiply(narrow, product);
     AlignedVector<double> points;
-    Vectors expected = x, found = sheet.zeros();
+    Vec3Arrays expected = x, found = sheet.zeros();
     multiply(sheet.matrix, x, points, expected);
     compute.kernels->add_float(1.0, {product.data(), padded}, found.axes(), {0, x.slices()});
     CAPTURE(sheet.count());
     const double size = std::sqrt(dot(compute, expected, expected));
-    const Vectors error = difference(found, expected);
+    const Vec3Arrays error = difference(found, expected);
     CHECK(std::sqrt(dot(compute, error, error)) <= 1e-6 * size);
     for (int i = 0; i < sheet.count(); ++i) CHECK((sheet.matrix.free[i] > 0.0 || found.at(i) == Vec3::Zero()));
 }
 
 void check_symmetric_and_definite(SheetSystem& sheet, Multigrid& multigrid) {
     for (int trial = 0; trial < 10; ++trial) {
-        const Vectors r = sheet.random_vector(), s = sheet.random_vector();
-        const Vectors z = cycle(multigrid, r), w = cycle(multigrid, s);
+        const Vec3Arrays r = sheet.random_vector(), s = sheet.random_vector();
+        const Vec3Arrays z = cycle(multigrid, r), w = cycle(multigrid, s);
         const double zr = dot(compute, z, r), ws = dot(compute, w, s);
         CHECK(zr > 0.0);
         CHECK(ws > 0.0);
@@ -124,7 +124,7 @@ TEST_CASE("One cycle is a symmetric positive definite operator on the free verti
     for (const int side : {4, 9, 17, 24}) {
         SheetSystem sheet(static_cast<unsigned>(side), side, 0.4);
         sheet.pin_share(0.1);
-        sheet.touch_share(0.3, 0.1, 1e3);
+        sheet.add_contacts(0.3, 0.1, 1e3);
         CAPTURE(side);
         check_symmetric_and_definite(sheet);
     }
@@ -135,17 +135,17 @@ TEST_CASE("One cycle takes most of the error of a smooth and of a rough solution
         SheetSystem sheet(static_cast<unsigned>(side), side, 0.1);
         Multigrid multigrid(compute, sheet.model.adjacency, sheet.model.rest);
         multigrid.fill(sheet.matrix, Multigrid::Coarser::filled);
-        Vectors smooth;
+        Vec3Arrays smooth;
         smooth.resize(sheet.count());
         for (int i = 0; i < sheet.count(); ++i) {
             const Vec3& x = sheet.model.rest[i];
             smooth.set(i, (x.z() + 0.5) * Vec3(std::sin(3.0 * x.x()), 1.0, std::cos(2.0 * x.z())));
         }
-        for (const Vectors& exact : {smooth, sheet.random_vector()}) {
+        for (const Vec3Arrays& exact : {smooth, sheet.random_vector()}) {
             AlignedVector<double> points;
-            Vectors b = exact;
+            Vec3Arrays b = exact;
             multiply(sheet.matrix, exact, points, b);
-            Vectors error = difference(exact, cycle(multigrid, b));
+            Vec3Arrays error = difference(exact, cycle(multigrid, b));
             CAPTURE(side);
             CHECK(sheet.energy_norm(error) <= 0.6 * sheet.energy_norm(exact));
         }
@@ -157,7 +157,7 @@ TEST_CASE("Prescribed vertices are left at zero") {
     sheet.pin_share(0.3);
     Multigrid multigrid(compute, sheet.model.adjacency, sheet.model.rest);
     multigrid.fill(sheet.matrix, Multigrid::Coarser::filled);
-    const Vectors z = cycle(multigrid, sheet.random_vector());
+    const Vec3Arrays z = cycle(multigrid, sheet.random_vector());
     for (int i = 0; i < sheet.count(); ++i) CHECK((sheet.matrix.free[i] > 0.0) == (z.at(i) != Vec3::Zero()));
 }
 
@@ -183,10 +183,10 @@ TEST_CASE("Taut and slack sheets stay cheap, though slack springs resist along o
 
 TEST_CASE("Pins anywhere cost no more iterations") {
     for (const int side : {17, 33, 65}) {
-        for (const double share : {0.05, 0.2, 0.6}) {
+        for (const double ratio : {0.05, 0.2, 0.6}) {
             SheetSystem sheet(static_cast<unsigned>(side) + 60u, side, 0.3);
-            sheet.pin_share(share);
-            CAPTURE(side, share);
+            sheet.pin_share(ratio);
+            CAPTURE(side, ratio);
             CHECK(iterations(sheet) <= 18);
         }
     }
@@ -197,18 +197,18 @@ TEST_CASE("Contacts of any stiffness cost few iterations more") {
         double least, most;
     };
     for (const int side : {17, 33, 65}) {
-        for (const double share : {0.2, 0.6}) {
+        for (const double ratio : {0.2, 0.6}) {
             for (const auto& [least, most] : {Factors{0.1, 0.1}, Factors{1.0, 1.0}, Factors{1e3, 1e3}, Factors{0.1, 1e3}}) {
                 SheetSystem sheet(static_cast<unsigned>(side) + 70u, side, 0.3);
-                sheet.touch_share(share, least, most);
-                CAPTURE(side, share, least, most);
+                sheet.add_contacts(ratio, least, most);
+                CAPTURE(side, ratio, least, most);
                 CHECK(iterations(sheet) <= 25);
             }
         }
     }
 }
 
-TEST_CASE("Layers that contact holds on each other cost a few times as much as those that it hardly does") {
+TEST_CASE("Layers held on each other by stiff contact cost a few times as much as those held by soft contact") {
     for (const int side : {17, 33}) {
         const auto needed = [&](double factor) {
             SheetSystem layers(static_cast<unsigned>(side), two_layers(side), 0.1 / side);
@@ -225,10 +225,10 @@ TEST_CASE("Layers that contact holds on each other cost a few times as much as t
 TEST_CASE("One cycle with stiff contact between cloths is symmetric and positive definite, beside obstacles and pins") {
     SheetSystem layers(8, two_layers(17), 0.005), banded(9, 24, 0.3);
     lay_on_each_other(17, 100.0, layers);
-    banded.touch_itself(200, 30.0);
+    banded.add_self_contacts(200, 30.0);
     for (SheetSystem* sheet : {&layers, &banded}) {
         sheet->pin_share(0.05);
-        sheet->touch_share(0.3, 0.1, 1e3);
+        sheet->add_contacts(0.3, 0.1, 1e3);
         check_symmetric_and_definite(*sheet);
         check_float_product(*sheet);
     }
@@ -242,7 +242,7 @@ TEST_CASE("Filling again leaves nothing of contact between cloths, with vertices
     cycle(multigrid, layers.random_vector());
     layers.pin_share(0.2);
     for (SheetSystem* sheet : {&layers, &without}) {
-        const Vectors r = sheet->random_vector();
+        const Vec3Arrays r = sheet->random_vector();
         Multigrid once(compute, sheet->model.adjacency, sheet->model.rest);
         once.fill(sheet->matrix, Multigrid::Coarser::filled);
         multigrid.fill(sheet->matrix, Multigrid::Coarser::filled);
@@ -254,9 +254,9 @@ TEST_CASE("The solution is that of the direct solver") {
     for (const int side : {5, 6, 17, 30}) {
         SheetSystem sheet(static_cast<unsigned>(side) + 80u, side, 0.4);
         sheet.pin_share(0.05);
-        sheet.touch_share(0.3, 0.1, 1e3);
+        sheet.add_contacts(0.3, 0.1, 1e3);
         const Solved solved = solve(sheet, sheet.right, 1e-11);
-        Vectors exact;
+        Vec3Arrays exact;
         exact.resize(sheet.count());
         DirectSolver direct;
         REQUIRE(direct.solve(sheet.matrix, sheet.right, exact));
@@ -274,7 +274,7 @@ TEST_CASE("A random network, coarsened or not, is solved too") {
         multigrid.fill(system.matrix, Multigrid::Coarser::filled);
         MultigridSpace space;
         const Eigen::VectorXd b = system.random_vector();
-        Vectors x = from_dense(Eigen::VectorXd::Zero(3 * vertices));
+        Vec3Arrays x = from_dense(Eigen::VectorXd::Zero(3 * vertices));
         const SolveReport report =
             solve_multigrid(system.matrix, multigrid, from_dense(b), {.relative_residual = 1e-12}, space, x);
         const Eigen::VectorXd expected = system.solve_dense(b, Eigen::VectorXd::Zero(3 * vertices));
@@ -287,13 +287,13 @@ TEST_CASE("A random network, coarsened or not, is solved too") {
 TEST_CASE("Filling again leaves nothing of pins, contacts and springs that were there") {
     SheetSystem sheet(4, 21, 0.4), other(5, 21, 0.1);
     sheet.pin_share(0.1);
-    sheet.touch_share(0.2, 0.1, 1e3);
+    sheet.add_contacts(0.2, 0.1, 1e3);
     other.pin_share(0.4);
-    other.touch_share(0.5, 0.1, 1e3);
-    const Vectors r = sheet.random_vector();
+    other.add_contacts(0.5, 0.1, 1e3);
+    const Vec3Arrays r = sheet.random_vector();
     Multigrid once(compute, sheet.model.adjacency, sheet.model.rest), again(compute, sheet.model.adjacency, sheet.model.rest);
     once.fill(sheet.matrix, Multigrid::Coarser::filled);
-    const Vectors expected = cycle(once, r);
+    const Vec3Arrays expected = cycle(once, r);
     again.fill(other.matrix, Multigrid::Coarser::filled);
     cycle(again, other.random_vector());
     again.fill(sheet.matrix, Multigrid::Coarser::filled);
@@ -316,7 +316,7 @@ TEST_CASE("The product in floats is that in doubles, pins and contacts included,
             if (!grid) mesh.grid_columns = mesh.grid_rows = 0;
             SheetSystem sheet(9, cloth_model(mesh, grid ? sheet_fabric() : free), 0.2 / columns);
             sheet.pin_share(0.1);
-            sheet.touch_share(0.3, 0.1, 1e3);
+            sheet.add_contacts(0.3, 0.1, 1e3);
             check_float_product(sheet);
         }
     }
@@ -326,12 +326,12 @@ TEST_CASE("Coarser levels that are kept leave cycles as symmetric and definite a
     const SheetSystem first(1, 33, 0.05);
     SheetSystem later(2, 33, 0.5);
     later.pin_share(0.05);
-    later.touch_share(0.2, 0.1, 1e3);
+    later.add_contacts(0.2, 0.1, 1e3);
     Multigrid multigrid(compute, later.model.adjacency, later.model.rest);
     multigrid.fill(first.matrix, Multigrid::Coarser::filled);
     multigrid.fill(later.matrix, Multigrid::Coarser::kept);
     check_symmetric_and_definite(later, multigrid);
-    const Vectors z = cycle(multigrid, later.right);
+    const Vec3Arrays z = cycle(multigrid, later.right);
     for (int i = 0; i < later.count(); ++i) CHECK((later.matrix.free[i] > 0.0 || z.at(i) == Vec3::Zero()));
 }
 

@@ -28,7 +28,7 @@ TEST_CASE("Masses add up to density times area") {
     CHECK(sum(lumped_masses(sphere, 0.3)) == Approx(0.3 * area(sphere)).epsilon(1e-13));
 }
 
-TEST_CASE("A grid vertex has a quarter of each cell it touches") {
+TEST_CASE("A grid vertex has a quarter of each of its cells") {
     const int columns = 5, rows = 4;
     const std::vector<double> masses = lumped_masses(make_grid(2.0, 1.5, columns, rows), 0.2);
     const double quarter = 0.2 * (2.0 / 4) * (1.5 / 3) / 4.0;
@@ -40,7 +40,7 @@ TEST_CASE("A grid vertex has a quarter of each cell it touches") {
     }
 }
 
-TEST_CASE("Quarter cells do not depend on how the cells are split, third triangles do") {
+TEST_CASE("Quarter cells do not depend on how the cells are split, but third triangles do") {
     TriangleMesh grid = make_grid(1.0, 1.0, 3, 3);
     const std::vector<double> quarters = lumped_masses(grid, 1.0);
     CHECK(quarters[1] == Approx(0.125).epsilon(1e-14));

@@ -18,7 +18,7 @@ TEST_CASE("A pose scales, then rotates, then translates") {
     }
 }
 
-TEST_CASE("A pose without turn or scale keeps every bit of a translation") {
+TEST_CASE("A pose without rotation or scale keeps every bit of a translation") {
     Random random(2);
     for (int i = 0; i < 50; ++i) {
         const Vec3 shift = random.point(1.0), point = random.point(1.0);
@@ -51,12 +51,12 @@ TEST_CASE("The product of two rotations turns as one after the other") {
     }
 }
 
-TEST_CASE("Between two poses a body goes straight and turns evenly, by the shorter way") {
+TEST_CASE("Between two poses a body moves straight and turns evenly, by the shorter way") {
     Random random(5);
     for (int i = 0; i < 50; ++i) {
         const Pose from = random.pose(2.0);
         Pose to = random.pose(2.0);
-        if (i % 2 == 1) to.rotation = {-to.rotation.w, -to.rotation.x, -to.rotation.y, -to.rotation.z};  // the same turn
+        if (i % 2 == 1) to.rotation = {-to.rotation.w, -to.rotation.x, -to.rotation.y, -to.rotation.z};  // the same rotation
         const double angle = angle_between(from.rotation, to.rotation), share = 0.1 + 0.016 * i;
         const Pose middle = interpolate(from, to, share);
         CHECK(angle <= 3.14159265358979324);

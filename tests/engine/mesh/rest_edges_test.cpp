@@ -82,7 +82,7 @@ TEST_CASE("The rest shape of another mesh has its corners, and other triangles a
     CHECK(scene_error([&] { rest_shape_of(mesh, rest, "flag"); }).find("1 triangles, the mesh has 2") != std::string::npos);
 }
 
-TEST_CASE("A rest shape that is none is refused, by triangle and reason") {
+TEST_CASE("An invalid rest shape is refused, by triangle and reason") {
     const TriangleMesh mesh = square_mesh();
     const RestShape good = rest_shape_of(mesh, mesh, "flag");
     const auto refusal = [&](auto change) {

@@ -25,12 +25,12 @@ std::vector<Vec3> deformed(const TriangleMesh& mesh, double warp, double weft, d
     return transform({.translation = Vec3(1, 2, 3), .rotation = turn_about(Vec3(1, -2, 0.5), 1.1)}, places);
 }
 
-/// A mesh that no longer knows its rows.
+/// The mesh without its rows and columns.
 TriangleMesh free_mesh(const TriangleMesh& grid) { return {.vertices = grid.vertices, .triangles = grid.triangles}; }
 
 }  // namespace
 
-TEST_CASE("A sheet stretched and sheared as a whole has just those strains in every triangle, wherever it lies") {
+TEST_CASE("A sheet stretched and sheared as a whole has exactly those strains in every triangle, wherever it lies") {
     const TriangleMesh grid = make_grid(0.6, 0.4, 5, 4);
     RestShape rest;
     rest.warp = Vec3(3, 0, 0);
@@ -47,7 +47,7 @@ TEST_CASE("A sheet stretched and sheared as a whole has just those strains in ev
 TEST_CASE("Warp across the sheet exchanges the two stretches") {
     const TriangleMesh grid = make_grid(0.6, 0.4, 4, 4);
     RestShape across;
-    across.warp = Vec3(0, 0.5, -1);  // what of it is upright does not count
+    across.warp = Vec3(0, 0.5, -1);  // its upright part does not count
     for (const TriangleStrain& strain : triangle_strains(free_mesh(grid), across, deformed(grid, 0.04, -0.02, 0.0))) {
         CHECK(strain.warp == Approx(-0.02).margin(1e-13));
         CHECK(strain.weft == Approx(0.04).margin(1e-13));
@@ -83,7 +83,7 @@ TEST_CASE("Strain refers to the rest shape, whose panels may lie apart and turne
     }
 }
 
-TEST_CASE("Areas of vertices are those that masses go by, of the mesh as it lies") {
+TEST_CASE("Areas of vertices are those of the lumped masses, for the mesh as it lies") {
     TriangleMesh grid = make_grid(0.4, 0.2, 3, 3);
     for (Vec3& x : grid.vertices) x *= 2.0;
     const std::vector<double> areas = vertex_areas(grid);

@@ -55,7 +55,7 @@ TEST_CASE("Mesh edges agree with a search on torn, shuffled meshes") {
     }
 }
 
-TEST_CASE("A grid has as many edges as Euler's formula asks") {
+TEST_CASE("A grid has as many edges as Euler's formula requires") {
     for (const auto& [columns, rows] : {std::pair(2, 2), std::pair(5, 3), std::pair(12, 12)}) {
         const TriangleMesh grid = make_grid(1.0, 1.0, columns, rows);
         CHECK(mesh_edges(grid.triangles).size() == grid.vertices.size() + grid.triangles.size() - 1);

@@ -24,7 +24,7 @@ TEST_CASE("Normals of a flat grid are those of its plane, however it lies") {
     for (const Vec3& n : normals_of(grid)) CHECK((n - up).norm() < 1e-13);
 }
 
-TEST_CASE("Triangles count by their area, not by their number or their angles") {
+TEST_CASE("Triangles are weighted by their area, not by their number or their angles") {
     // At vertex 0 meet one triangle of area 2 across +z and two of area 1/2 across +x.
     const TriangleMesh mesh{
         .vertices = {Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(0, 2, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(0, -1, 0)},
@@ -60,11 +60,11 @@ TEST_CASE("A vertex has no normal without triangles, without area, or where area
     const std::vector<Vec3> normals = normals_of(mesh);
     for (const int i : {0, 1, 2}) CHECK(normals[i] == Vec3(0, 0, 1));
     for (const int i : {3, 4, 5, 6, 7, 8, 9}) CHECK(normals[i] == Vec3::Zero());
-    for (Vec3& x : mesh.vertices) x *= 1e-6;  // what has an area keeps its normal, however small
+    for (Vec3& x : mesh.vertices) x *= 1e-6;  // a vertex whose triangles have area keeps its normal, however small
     CHECK((normals_of(mesh)[0] - Vec3(0, 0, 1)).norm() < 1e-15);
 }
 
-TEST_CASE("Normals are in the user's order, of the one cloth that is asked for") {
+TEST_CASE("Normals are in the user's order, and only of the requested cloth") {
     TriangleMesh mesh = make_sphere(0.2, 2);
     const std::vector<Vec3> expected = normals_of(mesh);
     const int count = static_cast<int>(mesh.vertices.size());

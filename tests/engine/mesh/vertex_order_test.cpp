@@ -32,7 +32,7 @@ ClothModel ordered_model(const TriangleMesh& mesh) {
     return model;
 }
 
-/// How far the two ends of a spring lie from each other in memory, in the mean.
+/// Mean distance of the two ends of a spring in memory.
 double mean_distance(const ClothModel& model) {
     double sum = 0.0;
     for (int k = 0; k < model.springs.size(); ++k) sum += std::abs(model.springs.first[k] - model.springs.second[k]);
@@ -61,7 +61,7 @@ TEST_CASE("Points at one place keep their order on the curve") {
     CHECK(along_curve(std::vector<Vec3>(7, Vec3(1, 2, 3))) == counted(7));
 }
 
-TEST_CASE("An order is a permutation, known in both directions") {
+TEST_CASE("An order is a permutation and its inverse") {
     for (const int wished : {300, 1000}) {
         const TriangleMesh mesh = shuffled(t_shirt(wished));
         const VertexOrder order = memory_order(mesh.vertices, std::vector<int>(mesh.vertices.size(), 6));
@@ -75,7 +75,7 @@ TEST_CASE("An order is a permutation, known in both directions") {
     CHECK(kept.vertex_at(7) == 7);
 }
 
-TEST_CASE("Each stretch holds what the curve passes there, those with most springs first") {
+TEST_CASE("Each window holds the vertices that the curve passes there, those with the most springs first") {
     Random random(2);
     const TriangleMesh mesh = shuffled(irregular_sheet(1.0, 1000));
     std::vector<int> springs;

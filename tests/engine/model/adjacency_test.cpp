@@ -18,7 +18,7 @@ double sign_of(const SpringNetwork& network, const Entry& entry) {
 
 /// Entries in the order in which sums run, padding left out but checked.
 std::vector<Entry> entries_of(const Adjacency& adjacency, int springs) {
-    constexpr int lanes = Vectors::lanes;
+    constexpr int lanes = Vec3Arrays::lanes;
     std::vector<Entry> entries;
     for (int s = 0; s < adjacency.slices(); ++s) {
         for (int e = adjacency.start[s]; e < adjacency.start[s + 1]; ++e) {
@@ -70,7 +70,7 @@ void check_value_places(const Adjacency& adjacency, int springs) {
     }
 }
 
-/// Places are those of the band that the distance of a spring's ends names; what no spring has is empty.
+/// Places are those of the band of the distance of a spring's ends; places without springs are empty.
 void check_bands(const ClothModel& model, int expected_bands) {
     const SpringNetwork& network = model.springs;
     const Adjacency& adjacency = model.adjacency;
@@ -131,7 +131,7 @@ TEST_CASE("A vertex without springs has padding only") {
     const ClothModel model = linked_masses(std::vector<double>(20, 1.0), {{1, 18, 1.0, 1.0, 0.0}, {18, 1, 1.0, 1.0, 0.0}});
     check_entries(model);
     CHECK(model.adjacency.slices() == 2);
-    CHECK(model.adjacency.start.back() == 4 * Vectors::lanes);
+    CHECK(model.adjacency.start.back() == 4 * Vec3Arrays::lanes);
     CHECK(model.adjacency.vertex_count == 20);
 }
 
@@ -167,7 +167,7 @@ TEST_CASE("The springs of a grid lie in bands, fewer where a kind is not built")
     }
 }
 
-TEST_CASE("Two grids lie in bands together where their columns are as many") {
+TEST_CASE("Two grids lie in bands together where they have as many columns") {
     const TriangleMesh grid = make_grid(1.0, 1.0, 20, 25);
     check_bands(two_sheets(grid, make_grid(0.5, 0.7, 20, 31)), 6);
     const ClothModel unequal = two_sheets(grid, make_grid(0.5, 0.7, 21, 31));
@@ -195,9 +195,9 @@ TEST_CASE("Two springs between the same vertices do not lie in bands") {
     CHECK(linked_masses(std::vector<double>(30, 1.0), links).adjacency.bands.count == 0);
 }
 
-TEST_CASE("Packed points are the vectors, with nothing beside them") {
+TEST_CASE("Packed points are the Vec3 arrays, with nothing beside them") {
     const ClothModel model = cloth_model(make_grid(1.0, 1.0, 17, 20), sheet_fabric());
-    const Vectors from = to_vectors(model.rest);
+    const Vec3Arrays from = to_vec3_arrays(model.rest);
     AlignedVector<double> points(7, 3.0);
     pack_points(compute, model.adjacency, from, points);
     const BandPattern& bands = model.adjacency.bands;

@@ -37,7 +37,7 @@ TEST_CASE("A cloth's range knows its mass") {
     CHECK(model.mass == lumped_masses(grid, 0.2));
 }
 
-TEST_CASE("Ordering a free mesh moves masses, rest positions and triangle corners along, and nothing of the cloth before it") {
+TEST_CASE("Ordering a free mesh moves masses, rest positions and triangle corners along, and leaves earlier cloth unchanged") {
     const TriangleMesh grid = make_grid(1.0, 1.0, 4, 3), ball = make_sphere(0.2, 2);
     Fabric free = sheet_fabric();
     free.springs.shear = 0.0;
@@ -83,10 +83,10 @@ TEST_CASE("A cloth that cannot be simulated is refused by name") {
 TEST_CASE("Points are the positions again") {
     Random random(4);
     const std::vector<Vec3> places = random_points(random, 13, 1.0);
-    ClothState state{.positions = to_vectors(places),
+    ClothState state{.positions = to_vec3_arrays(places),
                      .velocities = {},
                      .points = std::vector<Vec3>(13),
-                     .grips = {},
+                     .stick_anchors = {},
                      .impacts = {},
                      .rest_length = {}};
     update_points(state);

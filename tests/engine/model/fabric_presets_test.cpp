@@ -34,7 +34,7 @@ TEST_CASE("Bending lengths of presets are those of cloth: one to six centimetres
     }
 }
 
-TEST_CASE("An unknown preset is refused with the names of all") {
+TEST_CASE("An unknown preset is refused with the names of all presets") {
     CHECK(mentions(scene_error([] { fabric_preset("coton"); }), {"'coton'", "cotton", "white_dots_tablecloth"}));
 }
 

@@ -38,7 +38,7 @@ struct Density {
     }
 
     double energy(const std::vector<Vec3>& points) const {
-        const Vectors x = to_vectors(points);
+        const Vec3Arrays x = to_vec3_arrays(points);
         double sum = 0.0;
         for (const Hinge& hinge : model.hinges.all) {
             Vec3 middle = Vec3::Zero();
@@ -68,7 +68,7 @@ std::vector<TriangleMesh> some_meshes() {
 
 }  // namespace
 
-TEST_CASE("A flat sheet of a file that rounds off is flat, one that is rolled a little is not") {
+TEST_CASE("A flat sheet of a file with rounding is flat, and a slightly rolled one is not") {
     Random random(12);
     TriangleMesh sheet = irregular_sheet(1.0, 300);
     sheet.vertices = transform(random.pose(2.0), std::span<const Vec3>(sheet.vertices));
@@ -102,7 +102,7 @@ TEST_CASE("A flat sheet and one moved, turned or sheared in its plane have no be
     }
 }
 
-TEST_CASE("Grids store what an isotropic plate of Poisson ratio 0 stores, bent in any direction and twisted") {
+TEST_CASE("Grids store the energy of an isotropic plate of Poisson ratio 0, bent in any direction and twisted") {
     for (const auto& [columns, rows] : {std::pair(41, 41), std::pair(41, 21)}) {
         const TriangleMesh mesh = make_grid(1.0, 1.0, columns, rows);
         for (const double angle : {0.0, 0.3, 0.25 * pi, 1.1, 0.5 * pi}) {

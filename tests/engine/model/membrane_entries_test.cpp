@@ -29,7 +29,7 @@ TEST_CASE("Every edge is seen from both ends with the same numbers, near and far
     }
 }
 
-TEST_CASE("Every triangle has a corner at each of its vertices, what is left over refers to the vertex itself") {
+TEST_CASE("Every triangle has a corner at each of its vertices, and padding refers to the vertex itself") {
     const ClothModel model = cloth_model(make_grid(0.5, 0.3, 7, 5), woven_fabric());
     const MembraneEntries& membrane = model.adjacency.membrane;
     std::vector<int> corners(model.vertex_count(), 0), expected(model.vertex_count(), 0);

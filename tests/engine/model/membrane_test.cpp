@@ -95,7 +95,7 @@ TEST_CASE("On equilateral triangles Poisson's ratio 1/3 couples no edges: spring
 
 TEST_CASE("A grid's edges are springs without stiffness, its diagonals of the shear kind, and warp is along its rows") {
     TriangleMesh grid = make_grid(0.4, 0.3, 5, 4);
-    // Turned about y by a quarter: warp turns along.
+    // Turned about y by a quarter turn, with warp.
     for (Vec3& x : grid.vertices) x = Vec3(x.z(), x.y(), -x.x());
     std::vector<MembraneTriangle> triangles;
     const Fabric fabric = woven_fabric();
@@ -110,7 +110,7 @@ TEST_CASE("A grid's edges are springs without stiffness, its diagonals of the sh
         CHECK(network.first[k] >= 7);
     }
     for (const MembraneTriangle& t : triangles) {
-        // Longer along warp alone by 1 %: s = 2 * 0.01 L^2 there and on the diagonal likewise by its share.
+        // Longer along warp alone by 1 %: s = 2 * 0.01 L^2 there, and in proportion on the diagonal.
         Vec3 s;
         for (int e = 0; e < 3; ++e) {
             const int a = t.vertex[(e + 1) % 3] - 7, b = t.vertex[(e + 2) % 3] - 7;
@@ -121,7 +121,7 @@ TEST_CASE("A grid's edges are springs without stiffness, its diagonals of the sh
     }
 }
 
-TEST_CASE("A free mesh takes isotropic moduli and refuses others by name, as it does not say where warp is") {
+TEST_CASE("A free mesh takes isotropic moduli and refuses others by name, as it does not define warp") {
     std::vector<MembraneTriangle> triangles;
     CHECK(scene_error([&] { network_of(one_triangle(0.1), moduli_fabric(50.0, 50.0, {}, 0.3), triangles); }) == "");
     CHECK(triangles.size() == 1);
@@ -142,7 +142,7 @@ TEST_CASE("Van Gelder's springs are E area/length^2 for each triangle, without t
     for (const double stiffness : network.stiffness) CHECK(stiffness == Approx(50.0 * std::sqrt(3.0) / 4.0));
 }
 
-TEST_CASE("damping_time times what an edge resists with alone is its damping, spring_damping is taken as it is") {
+TEST_CASE("damping_time times the stiffness of an edge alone is its damping, and spring_damping is used as it is") {
     std::vector<MembraneTriangle> triangles;
     Fabric fabric = moduli_fabric(50.0, 50.0, {}, 1.0 / 3.0);
     fabric.damping_time = 0.02;

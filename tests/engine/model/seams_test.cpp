@@ -8,7 +8,7 @@ namespace {
 
 struct Sewn {
     ClothModel model;
-    Vectors positions;
+    Vec3Arrays positions;
     Seam seam;
 
     /// Two grids, the second 0.3 m above the first, sewn together at two corners and, within the first, across it.
@@ -17,7 +17,7 @@ struct Sewn {
         for (Vec3& x : upper.vertices) x.y() += 0.3;
         append_cloth(model, make_grid(1.0, 1.0, 4, 4), sheet_fabric(), "lower");
         append_cloth(model, upper, sheet_fabric(), "upper");
-        positions = to_vectors(model.rest);
+        positions = to_vec3_arrays(model.rest);
         seam.from = 2.0;
         seam.over = 0.5;
         append_seam(std::vector<Stitch>{{0, 16, 16}, {31, 15, 15}, {0, 3, 3}}, 40.0, positions, seam, model);
@@ -27,7 +27,7 @@ struct Sewn {
 
 }  // namespace
 
-TEST_CASE("A seam's springs begin with the distances of now and end with none") {
+TEST_CASE("A seam's springs begin with the present distances and end with zero length") {
     Sewn sewn;
     REQUIRE(sewn.seam.length.size() == 3);
     std::vector<double> lengths = sewn.model.springs.rest_length;
@@ -49,7 +49,7 @@ TEST_CASE("A seam's springs begin with the distances of now and end with none") 
     CHECK_FALSE(sewn.seam.closes_after(2.5));
 }
 
-TEST_CASE("A point between two vertices stores what is missing of its way, along it and across") {
+TEST_CASE("A point between two vertices stores the energy of its remaining distance, along it and across") {
     Sewn sewn;
     Seam seam{.length = {}, .from = 0.0, .over = 1.0};
     append_seam(std::vector<Stitch>{{0, 16, 17, 0.25}, {5, 21, 21}}, 40.0, sewn.positions, seam, sewn.model);
@@ -63,7 +63,7 @@ TEST_CASE("A point between two vertices stores what is missing of its way, along
         CHECK(seam_energy(seam, 1.0 - share, sewn.model, sewn.positions) ==
               Approx(0.5 * 40.0 * missing * missing * (length * length + 0.09)).margin(1e-15));
     }
-    // Off the way by 0.1 m it stores that, too, however long it is to be.
+    // 0.1 m off its line it stores that energy, too, whatever its target distance.
     sewn.positions.set(0, sewn.positions.at(0) + Vec3(0.0, 0.0, 0.1));
     CHECK(seam_energy(seam, 0.0, sewn.model, sewn.positions) == Approx(0.5 * 40.0 * 0.01).epsilon(1e-12));
 }
@@ -81,7 +81,7 @@ TEST_CASE("A point at the end of an edge, or between a vertex and itself, is tha
     }
 }
 
-TEST_CASE("A new rest length reaches every place where the spring is read, in bands and in slices") {
+TEST_CASE("A new rest length is set at every place where the spring is read, in bands and in slices") {
     for (const SpringLayout layout : {SpringLayout::best, SpringLayout::slices}) {
         ClothModel model = cloth_model(make_grid(1.0, 1.0, 9, 9), sheet_fabric());
         model.adjacency = make_adjacency(model.springs, model.vertex_count(), layout);

@@ -36,7 +36,7 @@ std::multiset<Spring> springs_of(const SpringNetwork& network) {
     return springs;
 }
 
-/// What stands between two grid vertices, from their places in the grid alone.
+/// The springs between two grid vertices, from their places in the grid alone.
 std::multiset<Spring> grid_springs_by_search(int columns, int rows) {
     std::multiset<Spring> springs;
     for (int i = 0; i < columns * rows; ++i) {
@@ -118,7 +118,7 @@ TEST_CASE("A second cloth's springs are appended with its vertices shifted") {
     }
 }
 
-TEST_CASE("Springs that cannot be are refused by name") {
+TEST_CASE("Invalid springs are refused by name") {
     const TriangleMesh grid = make_grid(1.0, 1.0, 3, 3);
     CHECK(mentions(scene_error([] { network_of(make_sphere(1.0, 1), fabric_of(1000.0, 5.0, 1.0)); }),
                    {"sail", "springs.shear", "5", "free mesh"}));
@@ -138,7 +138,7 @@ TEST_CASE("Renumbered springs join the same places with the same constants, sort
     const SpringNetwork old = network;
     const std::vector<int> springs = springs_at_vertices(network, from, before, count);
     CHECK(std::accumulate(springs.begin(), springs.end(), 0) == 2 * (network.size() - from));
-    CHECK(std::count(springs.begin(), springs.end(), 10) == 12);  // where five triangles meet; else six
+    CHECK(std::count(springs.begin(), springs.end(), 10) == 12);  // where five triangles meet; elsewhere six
     CHECK(std::count(springs.begin(), springs.end(), 12) == count - 12);
 
     const VertexOrder order = memory_order(ball.vertices, springs);

@@ -47,7 +47,7 @@ TEST_CASE("A limit of cloth without structural springs is refused") {
     CHECK(mentions(scene_error([&] { cloth_model(make_grid(0.2, 0.2, 3, 3), fabric); }), {"strain_limit", "structural"}));
 }
 
-TEST_CASE("What edges hold with stays when cloth is added") {
+TEST_CASE("Holds of edges stay when cloth is added") {
     ClothModel model = cloth_model(make_grid(0.2, 0.2, 3, 3), limited_fabric(0.1));
     model.limits.set_hold(model.limits.edges[4], 2.5);
     append_cloth(model, make_grid(0.2, 0.2, 3, 3), limited_fabric(0.2), "another");
@@ -57,9 +57,9 @@ TEST_CASE("What edges hold with stays when cloth is added") {
     for (const int entry : model.limits.edges[4].entry) CHECK(model.limits.hold[entry] == 2.5);
 }
 
-TEST_CASE("An edge that is too long holds with more, one that is too short with less, never below nothing nor above the most") {
+TEST_CASE("The hold of a too long edge grows and that of a too short one falls, between zero and the maximum") {
     ClothModel model = cloth_model(make_grid(0.2, 0.2, 3, 3), limited_fabric(0.1));
-    Vectors x = to_vectors(model.rest);
+    Vec3Arrays x = to_vec3_arrays(model.rest);
     LimitedEdge& edge = edge_between(model, 0, 1);
     const double k = edge.stiffness;
     const auto lengthen = [&](double length) { x.set(0, x.at(1) - Vec3(length, 0.0, 0.0)); };
@@ -81,10 +81,10 @@ TEST_CASE("An edge that is too long holds with more, one that is too short with 
     CHECK(edge.hold == 0.0);
     lengthen(2.0);
     for (int n = 0; n < 10; ++n) tighten(model.limits, model.springs, x, 1.0);
-    CHECK(edge.hold == Approx(most_held_strain * 1000.0 * 0.1));
+    CHECK(edge.hold == Approx(max_held_strain * 1000.0 * 0.1));
 }
 
-TEST_CASE("Holds are copied and put back, as kernels see them, too") {
+TEST_CASE("Holds are copied and restored, in the layout of the kernels, too") {
     ClothModel model = cloth_model(make_grid(0.2, 0.2, 3, 3), limited_fabric(0.1));
     model.limits.set_hold(model.limits.edges[3], 7.0);
     Holds holds;

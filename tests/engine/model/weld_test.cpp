@@ -4,8 +4,8 @@
 
 namespace percale::test::weld_test {
 
-TEST_CASE("welds take up a share of k times the gap, no more than k times the widest, and say what their energy grows by") {
-    Vectors x;
+TEST_CASE("welds take up a fraction of k times the gap, at most k times the widest, and return the growth of their energy") {
+    Vec3Arrays x;
     x.resize(4);
     x.set(0, {0.003, 0, 0});
     x.set(1, {0, 0.1, 0});

@@ -11,7 +11,7 @@
 namespace percale::test::plan_costs_test {
 namespace {
 
-/// Bytes that the program holds; 0 where the allocator does not say (sanitizers bring their own).
+/// Bytes that the program holds; 0 where the allocator does not report them (sanitizers bring their own).
 double allocated() {
     const auto figures = mallinfo2();
     return static_cast<double>(figures.uordblks) + static_cast<double>(figures.hblkhd);
@@ -42,7 +42,7 @@ double evaluations(const StepSettings& settings, const SceneFacts& facts) {
 
 }  // namespace
 
-TEST_CASE("Predicted memory is what is allocated to within a fifth") {
+TEST_CASE("Predicted memory is the allocated one to within a fifth") {
     for (const Scheme scheme : {Scheme::backward_euler, Scheme::symplectic_euler, Scheme::rk4}) {
         for (const int side : {33, 65}) {
             for (const double bend : {0.0, 10.0}) {
@@ -73,7 +73,7 @@ TEST_CASE("Predicted memory grows by every triangle of cloth and obstacle only w
     CHECK(memory() > near);
 }
 
-TEST_CASE("The predicted cost is that of the scheme, of fewer iterations where fewer are allowed, and nothing for nothing") {
+TEST_CASE("The predicted cost is that of the scheme, less for fewer allowed iterations, and zero where nothing is solved") {
     const SceneFacts facts{.cloth_vertices = 100};
     CHECK(evaluations({.scheme = Scheme::symplectic_euler}, facts) == 1.0);
     CHECK(evaluations({.scheme = Scheme::rk4}, facts) == 4.0);

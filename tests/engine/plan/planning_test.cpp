@@ -61,7 +61,7 @@ TEST_CASE("Facts are counted from the model and the script") {
     CHECK(facts.cloths[0].fabric.springs.shear == 50.0);
 }
 
-TEST_CASE("What the script holds now and what is known to come both count as changes") {
+TEST_CASE("Present motion of the script and known future motion both count as changes") {
     World world = sheet_world();
     add_plane(world);
     ScriptedChanges to_come;
@@ -87,14 +87,14 @@ TEST_CASE("Pins move only if a target differs from where the pinned vertex is") 
     CHECK(world.scene.plan.pins_move);
 }
 
-TEST_CASE("A plan is made anew when the scene has changed, and only motion is looked at in between") {
+TEST_CASE("A plan is made anew when the scene has changed, and only motion is updated in between") {
     World world = sheet_world();
     REQUIRE(step(world).ok());
     CHECK_FALSE(world.scene.plan.pins);
     world.scene.script.free[2] = 0.0;
     world.scene.script.pin_targets.set(2, world.state.cloth.positions.at(2) + Vec3(0, 1e-3, 0));
     REQUIRE(step(world).ok());
-    CHECK_FALSE(world.scene.plan.pins_move);  // nobody said that the scene changed
+    CHECK_FALSE(world.scene.plan.pins_move);  // the scene was not marked as changed
     scene_changed(world);
     world.scene.script.pin_targets.set(2, world.state.cloth.positions.at(2) + Vec3(0, 1e-3, 0));
     REQUIRE(step(world).ok());
@@ -116,7 +116,7 @@ TEST_CASE("The plan of a simulation holds counts, skips and predictions and runs
     CHECK(world.plan_outdated);
 }
 
-TEST_CASE("With skipping off the run ends where it ends with it") {
+TEST_CASE("With skipping off the run ends in the same state as with it") {
     for (const bool plane : {false, true}) {
         for (const double damping : {0.0, 0.1}) {
             for (const Vec3& gravity : {Vec3(0, -9.81, 0), Vec3(0, 0, 0)}) {
@@ -133,7 +133,7 @@ TEST_CASE("With skipping off the run ends where it ends with it") {
     }
 }
 
-TEST_CASE("A detector without obstacles is asked only if nothing is skipped") {
+TEST_CASE("A detector without obstacles is used only if nothing is skipped") {
     for (const bool skip : {true, false}) {
         World world = sheet_world(sheet_fabric(), {.skip = skip});
         auto detector = std::make_unique<PlaneDetector>();
@@ -141,7 +141,7 @@ TEST_CASE("A detector without obstacles is asked only if nothing is skipped") {
         world.scene.detector = std::move(detector);
         world.scene.detector->set_cloth(world.scene.model.triangles, world.scene.model.thickness);
         for (int n = 0; n < 3; ++n) CHECK(step(world).ok());
-        CHECK(plane.refreshes == (skip ? 0 : 3));
+        CHECK(plane.candidate_updates == (skip ? 0 : 3));
     }
 }
 
@@ -161,7 +161,7 @@ TEST_CASE("Where every vertex is pinned and nothing moves a step solves nothing"
     CHECK(world.state.cloth.positions.at(3) == before[3] + Vec3(0, 0.01, 0));
 }
 
-TEST_CASE("A plan made again from what a saved state keeps of it is the same in all it says") {
+TEST_CASE("A plan made again from its part in a saved state is the same in every field") {
     const auto check = [](World& world, const auto& script) {
         for (int n = 0; n < 4; ++n) {
             script(n);

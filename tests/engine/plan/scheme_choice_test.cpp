@@ -41,7 +41,7 @@ double speed_after(Scheme scheme, double dt, int steps) {
 
 }  // namespace
 
-TEST_CASE("The stable step of a pair of masses is that of the oscillator, less what damping takes") {
+TEST_CASE("The stable step of a pair of masses is that of the oscillator, reduced by damping") {
     const double m1 = 0.2, m2 = 0.3, omega = std::sqrt(40.0 * (1.0 / m1 + 1.0 / m2));
     for (const double damping : {0.0, 0.5}) {
         const World world = make_world(linked_masses({m1, m2}, {{0, 1, 1.0, 40.0, damping}}), {Vec3(0, 0, 0), Vec3(1, 0, 0)}, {});
@@ -119,7 +119,7 @@ TEST_CASE("The choice is explicit for coarse soft cloth, implicit for stiff or f
           Scheme::backward_euler);
 }
 
-TEST_CASE("What is chosen takes as many parts as it needs to be stable") {
+TEST_CASE("The chosen scheme takes as many parts as it needs to be stable") {
     World world = sheet({.time_step = 1.0 / 60.0, .scheme = Scheme::automatic, .measure = StepMeasures::all}, 7, 0.1);
     world.scene.script.free[0] = 0.0;
     StepReport report;
@@ -130,7 +130,7 @@ TEST_CASE("What is chosen takes as many parts as it needs to be stable") {
     CHECK(report.largest_strain < 1.0);
 }
 
-TEST_CASE("Warnings name what will go wrong, and there are none where nothing will") {
+TEST_CASE("Warnings name what will fail, and there are none where nothing will") {
     const auto warnings = [](const StepSettings& settings, int side = 9) {
         const World world = sheet(settings, side);
         std::string text;
@@ -148,7 +148,7 @@ TEST_CASE("Warnings name what will go wrong, and there are none where nothing wi
     CHECK(mentions(warnings({.newton_iterations = 1}, 65), {"newton_iterations = 1", "4225"}));
 }
 
-TEST_CASE("Slivers of cloth of moduli are warned of where the solver is iterative") {
+TEST_CASE("Slivers of cloth of moduli cause a warning where the solver is iterative") {
     const auto warned = [](double height, const Fabric& fabric, LinearSolver solver) {
         TriangleMesh mesh{.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 0, height}, {0.5, 0, -0.5}},
                           .triangles = {{0, 2, 1}, {0, 1, 3}}};

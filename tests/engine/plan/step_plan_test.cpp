@@ -15,7 +15,7 @@ bool skips(const StepSettings& settings, const SceneFacts& facts, const std::str
                        [&](const Skip& skip) { return skip.what.find(what) != std::string::npos && !skip.why.empty(); });
 }
 
-/// Why it is left out, empty where it is not.
+/// The reason for a skip, empty where there is none.
 std::string why_skipped(const StepSettings& settings, const SceneFacts& facts, const std::string& what) {
     for (const Skip& skip : skipped_by(make_step_plan(settings, facts), settings, facts)) {
         if (skip.what.find(what) != std::string::npos) return skip.why;
@@ -51,7 +51,7 @@ TEST_CASE("Contacts are planned only where there is cloth and an obstacle") {
     }
 }
 
-TEST_CASE("Contacts are planned where cloth meets cloth, and what does not is listed by name") {
+TEST_CASE("Contacts are planned where cloth meets cloth, and cloth without contact is listed by name") {
     SceneFacts facts = sheet_facts();
     facts.cloths[0].fabric.self_contact = true;
     CHECK(make_step_plan({}, facts).contacts);
@@ -66,7 +66,7 @@ TEST_CASE("Contacts are planned where cloth meets cloth, and what does not is li
     CHECK(skips({}, facts, "contact detection"));
 }
 
-TEST_CASE("The plan passes on what moves in the coming step") {
+TEST_CASE("The plan passes on the motion in the coming step") {
     const StepSettings measured{.measure = StepMeasures::all};
     for (const bool obstacles : {false, true}) {
         for (const bool pins : {false, true}) {
@@ -132,7 +132,7 @@ TEST_CASE("Spring kinds that a cloth lacks are listed by cloth, with the reason"
     CHECK(shear->why == "a free mesh has none");
 }
 
-TEST_CASE("Motion that the script is known to bring is not called skipped") {
+TEST_CASE("Known future motion of the script is not listed as skipped") {
     SceneFacts facts = sheet_facts();
     facts.obstacles = 1;
     CHECK(skips({}, facts, "motion of obstacles"));
@@ -145,7 +145,7 @@ TEST_CASE("Motion that the script is known to bring is not called skipped") {
     CHECK_FALSE(skips({}, facts, "work of pins"));
 }
 
-TEST_CASE("Gravity that is zero and stays so has no energy to be measured") {
+TEST_CASE("Gravity that is and stays zero has no energy to be measured") {
     const StepSettings heavy{.measure = StepMeasures::all};
     const StepSettings weightless{.measure = StepMeasures::all, .gravity = Vec3::Zero()};
     SceneFacts facts = sheet_facts();
@@ -158,7 +158,7 @@ TEST_CASE("Gravity that is zero and stays so has no energy to be measured") {
     CHECK_FALSE(skips(weightless, facts, "energy of gravity"));
 }
 
-TEST_CASE("Measures are left out where the setting says so") {
+TEST_CASE("Measures are left out where the setting excludes them") {
     SceneFacts facts = sheet_facts();
     facts.changes.pins = true;
     const StepSettings automatic, none{.measure = StepMeasures::none};
@@ -180,7 +180,7 @@ TEST_CASE("Measures are left out where the setting says so") {
     CHECK_FALSE(skips(ledger, facts, "ledger of energy"));
 }
 
-TEST_CASE("With skipping off only what is not there is left out") {
+TEST_CASE("With skipping off only absent things are left out") {
     SceneFacts facts = sheet_facts();
     facts.pinned_vertices = 9;
     facts.damped = false;
@@ -206,7 +206,7 @@ TEST_CASE("With skipping off only what is not there is left out") {
     CHECK(std::count(more.begin(), more.end(), "bending springs of sheet") == 1);
 }
 
-TEST_CASE("Of cloth of given moduli what it is not made of is listed") {
+TEST_CASE("Springs that cloth of given moduli lacks are listed") {
     SceneFacts facts = sheet_facts();
     CHECK(skips({}, facts, "triangle springs of sheet"));
     facts.cloths[0].fabric = {.stretch_stiffness = {{90.0, 80.0}}};

@@ -26,7 +26,7 @@ Eigen::Vector2d step_pair(Scheme scheme, double a, const Eigen::Vector2d& start)
     return {length - rest, (world.state.cloth.velocities.x[0] - world.state.cloth.velocities.x[1]) / omega};
 }
 
-/// The eigenvalue of a step with the largest size: growth a step, and the phase it turns by.
+/// The eigenvalue of a step with the largest size: growth and phase per step.
 std::complex<double> amplification(Scheme scheme, double a) {
     constexpr double size = 0.01;
     Eigen::Matrix2d map;
@@ -60,14 +60,14 @@ TEST_CASE("The table has one entry a scheme, in the order of the enum, named as 
 
 TEST_CASE("The stages of a step make one step, and in schemes of second order forces act in its middle on average") {
     for (const Scheme scheme : all_schemes) {
-        double share = 0.0, place = 0.0;
+        double weight = 0.0, place = 0.0;
         for (const StageWeight& stage : stage_weights(scheme)) {
-            share += stage.share;
-            place += stage.share * stage.place;
+            weight += stage.weight;
+            place += stage.weight * stage.place;
         }
         CAPTURE(facts_of(scheme).word);
-        CHECK(share == Approx(1.0).epsilon(1e-15));
-        // BDF2 takes forces at its end alone and makes up for it by the step before.
+        CHECK(weight == Approx(1.0).epsilon(1e-15));
+        // BDF2 evaluates forces at its end alone and compensates by the previous step.
         const bool at_end = scheme == Scheme::backward_euler || scheme == Scheme::bdf2;
         CHECK(place == Approx(at_end ? 1.0 : 0.5).epsilon(1e-15));
     }
@@ -127,7 +127,7 @@ TEST_CASE("TR-BDF2 amplifies by (1 + (1 - 2h') z) / (1 - h' z)^2, which vanishes
     }
 }
 
-TEST_CASE("Each scheme is stable up to where the table says and not beyond", "[law]") {
+TEST_CASE("Each scheme is stable up to the limit of the table and not beyond", "[law]") {
     for (const Scheme scheme : all_schemes) {
         const SchemeFacts& facts = facts_of(scheme);
         CAPTURE(facts.word);

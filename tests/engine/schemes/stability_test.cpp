@@ -24,7 +24,7 @@ TEST_CASE("Without damping symplectic Euler is stable to 2/w, RK4 to 2 sqrt 2/w,
     }
 }
 
-TEST_CASE("Damped forward Euler is stable to 2 zeta/w, and with strong damping all to their limit on the real axis") {
+TEST_CASE("Damped forward Euler is stable to 2 zeta/w, and strongly damped schemes to their limit on the real axis") {
     CHECK(limit(Scheme::forward_euler, 5.0, 0.1) == Approx(0.2 / 5.0));
     CHECK(limit(Scheme::forward_euler, 5.0, 0.999) == Approx(1.998 / 5.0));
     const double zeta = 50.0, fastest = 5.0 * (zeta + std::sqrt(zeta * zeta - 1.0));
@@ -34,7 +34,7 @@ TEST_CASE("Damped forward Euler is stable to 2 zeta/w, and with strong damping a
     CHECK(limit(Scheme::symplectic_euler, 5.0, 1e4) == Approx(2.0 / (2.0 * 1e4 * 5.0)).epsilon(1e-6));
 }
 
-TEST_CASE("At its limit an oscillator neither grows nor decays, with half the step it decays") {
+TEST_CASE("At its limit an oscillator neither grows nor decays, and with half the step it decays") {
     const double square = 7.0, damping = 1.1;
     // One step of the midpoint as a matrix: 1 + dt A + dt^2/2 A^2.
     const auto growth = [&](double dt) {

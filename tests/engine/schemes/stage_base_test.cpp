@@ -8,17 +8,17 @@ namespace {
 
 const Vec3 p0(0.1, -0.2, 0.3), p1(1.0, 2.0, -1.0), p2(-0.5, 4.0, 2.0);
 
-/// A motion whose accelerations stay: q = p0 + t p1 + t^2 p2.
+/// A motion with constant acceleration: q = p0 + t p1 + t^2 p2.
 ClothState state_at(double t) {
     ClothState state;
-    state.positions = to_vectors({p0 + t * p1 + t * t * p2});
-    state.velocities = to_vectors({p1 + 2.0 * t * p2});
+    state.positions = to_vec3_arrays({p0 + t * p1 + t * t * p2});
+    state.velocities = to_vec3_arrays({p1 + 2.0 * t * p2});
     return state;
 }
 
-const Vectors acceleration = to_vectors({2.0 * p2});
+const Vec3Arrays acceleration = to_vec3_arrays({2.0 * p2});
 
-/// How far a stage is from the motion at its end: in q = q* + h v and in v = v* + h a.
+/// The residual of a stage for the motion at its end: in q = q* + h v and in v = v* + h a.
 double stage_error(const StageBase& base, double t) {
     const ClothState end = state_at(t);
     const Vec3 q = base.positions.at(0) + base.h * end.velocities.at(0);
@@ -28,21 +28,21 @@ double stage_error(const StageBase& base, double t) {
 
 }  // namespace
 
-TEST_CASE("Stages of second order are exact where accelerations stay, and foresee the velocity") {
+TEST_CASE("Stages of second order are exact at constant acceleration, and extrapolate the velocity") {
     StageBase base;
     set_trapezoid_base(state_at(0.3), acceleration, 0.1, base);
     CHECK(base.h == 0.05);
     CHECK(stage_error(base, 0.4) < 1e-14);
-    CHECK((base.foreseen.at(0) - state_at(0.4).velocities.at(0)).norm() < 1e-14);
+    CHECK((base.extrapolated.at(0) - state_at(0.4).velocities.at(0)).norm() < 1e-14);
     for (const double before : {0.02, 0.1, 0.25}) {
         set_bdf2_base(state_at(0.3), acceleration, state_at(0.3 - before), 0.1, before, base);
         CAPTURE(before, base.h);
         CHECK(stage_error(base, 0.4) < 1e-14);
-        CHECK((base.foreseen.at(0) - state_at(0.4).velocities.at(0)).norm() < 1e-14);
+        CHECK((base.extrapolated.at(0) - state_at(0.4).velocities.at(0)).norm() < 1e-14);
     }
 }
 
-TEST_CASE("Twice the implicit midpoint's stage less its start is exact where accelerations stay") {
+TEST_CASE("Twice the implicit midpoint's stage less its start is exact at constant acceleration") {
     StageBase base;
     const ClothState start = state_at(0.3), end = state_at(0.4);
     set_midpoint_base(start, acceleration, 0.1, base);
@@ -55,15 +55,15 @@ TEST_CASE("Twice the implicit midpoint's stage less its start is exact where acc
 
 TEST_CASE("The two stages of TR-BDF2 have the same h") {
     StageBase first, second;
-    const double share = 2.0 - std::sqrt(2.0);
-    set_trapezoid_base(state_at(0.0), acceleration, share, first);
-    set_bdf2_base(state_at(share), acceleration, state_at(0.0), 1.0 - share, share, second);
+    const double weight = 2.0 - std::sqrt(2.0);
+    set_trapezoid_base(state_at(0.0), acceleration, weight, first);
+    set_bdf2_base(state_at(weight), acceleration, state_at(0.0), 1.0 - weight, weight, second);
     CHECK(first.h == Approx(second.h).epsilon(1e-14));
 }
 
 TEST_CASE("Prescribed vertices reach their targets at a steady speed in any stage") {
     StageBase base;
-    const Vectors targets = to_vectors({Vec3(1.0, 2.0, 3.0)});
+    const Vec3Arrays targets = to_vec3_arrays({Vec3(1.0, 2.0, 3.0)});
     const ClothState start = state_at(0.3);
     set_trapezoid_base(start, acceleration, 0.1, base);
     set_prescribed_base(AlignedVector<double>(targets.padded_size(), 0.0), start.positions, targets, 0.1, base);

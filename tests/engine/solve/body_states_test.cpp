@@ -7,7 +7,7 @@
 namespace percale::test::body_states_test {
 namespace {
 
-/// Three cloths of two masses each, the last two of which a seam joins.
+/// Three cloths of two masses each; a seam joins the last two.
 ClothModel two_bodies() {
     ClothModel model = linked_masses(std::vector<double>(6, 0.1), {{0, 1, 1.0, 10.0, 0.0}, {3, 4, 1.0, 10.0, 0.0}});
     model.springs.kind[1] = SpringKind::seam;
@@ -17,15 +17,15 @@ ClothModel two_bodies() {
     return model;
 }
 
-ContactRows row_between(int first, int second, int obstacle) {
-    ContactRows rows;
-    add_row({first, second, -1, -1}, {1, -1, 0, 0}, obstacle, rows);
-    return rows;
+ContactConstraints constraint_between(int first, int second, int obstacle) {
+    ContactConstraints constraints;
+    add_constraint({first, second, -1, -1}, {1, -1, 0, 0}, obstacle, constraints);
+    return constraints;
 }
 
 }  // namespace
 
-TEST_CASE("A body is settled once a small change of it was made, and asked no more") {
+TEST_CASE("A body is settled once a small change of it was made, and is not checked again") {
     const ClothModel model = two_bodies();
     REQUIRE(model.bodies.size() == 2);
     BodyStates states;
@@ -46,21 +46,21 @@ TEST_CASE("A body is settled once a small change of it was made, and asked no mo
     CHECK_FALSE(states.settled(0));
 }
 
-TEST_CASE("Bodies that a row joins are released, others are not") {
+TEST_CASE("Bodies that a constraint joins are released, others are not") {
     const ClothModel model = two_bodies();
-    const auto settled_after = [&](const ContactRows& rows) {
+    const auto settled_after = [&](const ContactConstraints& constraints) {
         BodyStates states;
         states.start(model);
         states.mark(model, [](const Body&) { return true; });
         states.settle_small();
-        states.release_joined(model, rows);
+        states.release_joined(model, constraints);
         return std::array{states.settled(0), states.settled(1)};
     };
     CHECK(settled_after({}) == std::array{true, true});
-    CHECK(settled_after(row_between(0, 1, -1)) == std::array{true, true});
-    CHECK(settled_after(row_between(2, 5, -1)) == std::array{true, true});
-    CHECK(settled_after(row_between(1, 4, 0)) == std::array{true, true});
-    CHECK(settled_after(row_between(1, 4, -1)) == std::array{false, false});
+    CHECK(settled_after(constraint_between(0, 1, -1)) == std::array{true, true});
+    CHECK(settled_after(constraint_between(2, 5, -1)) == std::array{true, true});
+    CHECK(settled_after(constraint_between(1, 4, 0)) == std::array{true, true});
+    CHECK(settled_after(constraint_between(1, 4, -1)) == std::array{false, false});
 }
 
 }  // namespace percale::test::body_states_test

@@ -11,7 +11,7 @@ namespace {
 /// A crumpled sheet at the first point of a stage.
 struct FirstPoint {
     SolverScene scene = solver_scene(make_grid(1.0, 1.0, 5, 5), sheet_fabric(), {.linear_solver = LinearSolver::direct});
-    ContactMemory memory;
+    ContactWarmStart warm_start;
     std::unique_ptr<ImplicitStage> stage;
     std::unique_ptr<StageEquations> equations;
 
@@ -25,12 +25,12 @@ struct FirstPoint {
         set_euler_base(scene.before, scene.settings.time_step, scene.base);
         stage = std::make_unique<ImplicitStage>(ImplicitStage{
             .scene = scene, .base = scene.base, .start = scene.before, .targets = scene.targets, .options = options});
-        equations = std::make_unique<StageEquations>(*stage, memory, scene.newton, scene.stages);
+        equations = std::make_unique<StageEquations>(*stage, warm_start, scene.newton, scene.stages);
         equations->predict();
         equations->evaluate(scene.newton.current);
     }
-    const Vectors& residual() const { return scene.newton.current.residual; }
-    const Vectors& direction() const { return scene.newton.direction; }
+    const Vec3Arrays& residual() const { return scene.newton.current.residual; }
+    const Vec3Arrays& direction() const { return scene.newton.direction; }
 };
 
 }  // namespace
@@ -40,7 +40,7 @@ TEST_CASE("The Newton direction solves A dv = -r on free vertices and leaves pre
     const Direction found = newton_direction(*point.equations, {.relative_residual = 1e-12});
     CHECK(found.exact);
     CHECK(point.direction().at(12) == Vec3::Zero());
-    Vectors product;
+    Vec3Arrays product;
     product.resize(25);
     AlignedVector<double> points;
     multiply(point.scene.newton.solver.matrix, point.direction(), points, product);
@@ -64,9 +64,9 @@ TEST_CASE("Without Jacobians the direction is the residual over the mass") {
     for (int i = 0; i < 25; ++i) CHECK(point.direction().at(i) == -point.residual().at(i) / point.scene.model.mass[i]);
 }
 
-TEST_CASE("A cloth that nothing holds gets its whole momentum, however loosely the system is solved") {
+TEST_CASE("A cloth that nothing holds receives its whole momentum, however loosely the system is solved") {
     FirstPoint point;
-    newton_direction(*point.equations, {.relative_residual = 0.3, .most_iterations = 2});
+    newton_direction(*point.equations, {.relative_residual = 0.3, .max_iterations = 2});
     Vec3 left = Vec3::Zero(), all = Vec3::Zero();
     for (int i = 0; i < 25; ++i) {
         left += point.scene.model.mass[i] * point.direction().at(i) + point.residual().at(i);
@@ -75,7 +75,7 @@ TEST_CASE("A cloth that nothing holds gets its whole momentum, however loosely t
     CHECK(left.norm() < 1e-12 * all.norm());
 }
 
-TEST_CASE("A prescribed vertex on its way heads for its target") {
+TEST_CASE("A prescribed vertex on its way moves to its target") {
     FirstPoint point({}, 4);
     point.scene.plan.pins_move = true;
     point.scene.newton.current.fraction = 0.5;

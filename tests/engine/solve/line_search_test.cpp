@@ -23,7 +23,7 @@ TEST_CASE("A trial that lowers the objective enough is accepted") {
     CHECK_FALSE(accept_trial(2.1, quadratic(3.0, 1.0, 2.1)));
 }
 
-TEST_CASE("Armijo's rule asks for a ten-thousandth of the slope's promise") {
+TEST_CASE("Armijo's rule asks for a ten-thousandth of the decrease that the slope predicts") {
     LineTrial trial{.start_objective = 1.0, .start_slope = -2.0, .objective = 1.0 - 1.9e-4, .slope = 5.0};
     CHECK_FALSE(accept_trial(1.0, trial));
     trial.objective = 1.0 - 2.1e-4;
@@ -41,26 +41,26 @@ TEST_CASE("Where the objective rises by no more than rounding the slope decides"
     CHECK_FALSE(accept_trial(1.0, trial));
 }
 
-TEST_CASE("With contact the slope decides whatever the objective says") {
+TEST_CASE("With contact the slope decides whatever the objective is") {
     LineTrial trial{.start_objective = 1.0, .start_slope = -2.0, .objective = 5.0, .slope = 1.7, .objective_known = false};
     CHECK(accept_trial(1.0, trial));
     trial.slope = 1.9;
     CHECK_FALSE(accept_trial(1.0, trial));
 }
 
-TEST_CASE("A slope that has turned too far is refused though the objective fell") {
+TEST_CASE("A slope that violates the curvature condition is rejected though the objective fell") {
     LineTrial trial = quadratic(3.0, 1.0, 1.25);
     CHECK(accept_trial(1.25, trial));
-    trial.most_turned = 0.3;
+    trial.curvature_constant = 0.3;
     CHECK(accept_trial(1.25, trial));
-    trial.most_turned = 0.2;
+    trial.curvature_constant = 0.2;
     CHECK_FALSE(accept_trial(1.25, trial));
     trial = quadratic(3.0, 1.0, 0.9);
-    trial.most_turned = 0.2;
+    trial.curvature_constant = 0.2;
     CHECK(accept_trial(0.9, trial));
 }
 
-TEST_CASE("A trial that is not finite is refused") {
+TEST_CASE("A trial that is not finite is rejected") {
     for (const double bad : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
         LineTrial trial = quadratic(1.0, 1.0, 1.0);
         trial.objective = bad;

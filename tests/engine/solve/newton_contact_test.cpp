@@ -122,10 +122,10 @@ TEST_CASE("The threshold between sticking and sliding is the tangent of the angl
               1e-3);
 }
 
-TEST_CASE("Contact is refreshed once a solve") {
+TEST_CASE("Candidates are updated once a solve") {
     SolverScene scene = sheet_on_plane(0.0, 0.3, 0.01);
     run(scene, 5);
-    CHECK(static_cast<PlaneDetector&>(*scene.detector).refreshes == 5);
+    CHECK(static_cast<PlaneDetector&>(*scene.detector).candidate_updates == 5);
 }
 
 TEST_CASE("Without gravity a sheet that trembles in the air makes no solve longer for one in contact") {
@@ -135,7 +135,7 @@ TEST_CASE("Without gravity a sheet that trembles in the air makes no solve longe
         const ClothId thrown =
             simulation.add_cloth(make_grid(0.5, 0.5, 20, 20), sheet_fabric(), {.translation = Vec3(0, 0.02, 0)});
         if (floating) {
-            // What moves it sums up to nothing but rounding.
+            // Its total momentum is 0 but for rounding.
             const ClothId sheet =
                 simulation.add_cloth(make_grid(0.5, 0.5, 20, 20), sheet_fabric(), {.translation = Vec3(0, 1, 0)});
             Random random(3);

@@ -51,14 +51,14 @@ TEST_CASE("With Jacobians of zero and one iteration backward Euler is symplectic
 
 TEST_CASE("With Jacobians of zero and more iterations backward Euler is a fixed-point iteration") {
     SolverScene twice = scene_without_jacobians(2), once = scene_without_jacobians(1);
-    const Vectors start = once.state.velocities;
+    const Vec3Arrays start = once.state.velocities;
     once.step_implicit();
     // The second iteration: forces at the end of the first, applied to the start velocities.
     ExplicitSpace space;
     SpringTerms terms;
     StepSprings springs;
     set_step_springs(compute, {once.model.adjacency, once.state.positions, DampingForm::velocity, 1e-4}, springs);
-    Vectors forces;
+    Vec3Arrays forces;
     forces.resize(25);
     evaluate_springs(compute, springs, {once.state.positions, once.state.velocities, 1e-4}, false, forces, terms);
     twice.step_implicit();
@@ -134,7 +134,7 @@ TEST_CASE("The residual is the gradient of the incremental potential") {
         const double slope = (dense.objective(ahead) - dense.objective(behind)) / 2e-4;
         CHECK(slope == Approx(residual[i]).epsilon(1e-5).margin(1e-6 * residual.norm()));
     }
-    // The engine's objective leaves out what is the same for all v.
+    // The engine's objective leaves out terms that are the same for all v.
     const Eigen::VectorXd next = to_dense(further.state.velocities, 25);
     const double change = further.newton.current.objective - scene.newton.current.objective;
     CHECK(change == Approx(dense.objective(next) - dense.objective(v)).epsilon(1e-9));
@@ -156,7 +156,7 @@ TEST_CASE("The incremental potential falls with every iteration") {
 
 TEST_CASE("Running out of iterations is reported and the state is the best one found") {
     SolverScene scene = crumpled_sheet({.time_step = 0.05, .newton_tolerance = 1e-12, .newton_iterations = 2});
-    const Vectors start = scene.state.positions;
+    const Vec3Arrays start = scene.state.positions;
     const NewtonReport report = scene.step_implicit();
     CHECK(report.end == NewtonEnd::iterations_used);
     CHECK(report.newton_iterations == 2);
@@ -170,7 +170,7 @@ TEST_CASE("The automatic rule stops well within the error of the step, sooner th
     for (int n = 0; n < 10; ++n) {
         // Both from the same state, so that one step's solver error is compared with that step's time error.
         tight.state = scene.state;
-        const Vectors velocities = scene.state.velocities;
+        const Vec3Arrays velocities = scene.state.velocities;
         const NewtonReport automatic = scene.step_implicit(), exact = tight.step_implicit();
         REQUIRE(automatic.end == NewtonEnd::converged);
         CHECK(automatic.newton_iterations <= exact.newton_iterations);
@@ -187,7 +187,7 @@ TEST_CASE("The automatic rule stops well within the error of the step, sooner th
 TEST_CASE("A state that is not finite is reported and left as it was") {
     SolverScene scene = crumpled_sheet({});
     scene.state.velocities.set(7, Vec3(std::numeric_limits<double>::quiet_NaN(), 0, 0));
-    const Vectors positions = scene.state.positions;
+    const Vec3Arrays positions = scene.state.positions;
     CHECK(scene.step_implicit().end == NewtonEnd::not_finite);
     CHECK(same_bits(scene.state.positions, positions));
 }

@@ -19,14 +19,14 @@ SolverScene moving_sheet() {
 
 }  // namespace
 
-TEST_CASE("The prediction goes on with the old velocities, prescribed vertices to their targets") {
+TEST_CASE("The prediction continues with the old velocities, prescribed vertices to their targets") {
     OneStage one(moving_sheet());
     SolverScene& scene = one.scene;
     scene.pin(3);
     scene.plan.pins_move = true;
     scene.targets.set(3, scene.before.positions.at(3) + Vec3(0.0, 0.01, 0.0));
     const ImplicitStage stage = one.stage();
-    StageEquations equations(stage, one.memory, scene.newton, scene.stages);
+    StageEquations equations(stage, one.warm_start, scene.newton, scene.stages);
     CHECK_FALSE(equations.arrived());
     equations.predict();
     CHECK(equations.arrived());
@@ -42,7 +42,7 @@ TEST_CASE("A residual is the gradient of the objective, 0 where vertices are pre
     one.scene.pin(7);
     const ImplicitStage stage = one.stage();
     NewtonSpace& space = one.scene.newton;
-    StageEquations equations(stage, one.memory, space, one.scene.stages);
+    StageEquations equations(stage, one.warm_start, space, one.scene.stages);
     equations.predict();
     equations.evaluate(space.current);
     CHECK(space.current.residual.at(7) == Vec3::Zero());
@@ -62,12 +62,12 @@ TEST_CASE("A residual is the gradient of the objective, 0 where vertices are pre
     }
 }
 
-TEST_CASE("A move is cut before it crosses, and velocities with it") {
+TEST_CASE("A move is clamped before it crosses, and velocities with it") {
     OneStage one(sheet_on_plane(0.0, 0.3, 0.05));
     for (int i = 0; i < 16; ++i) one.scene.before.velocities.set(i, Vec3(0.0, -10.0, 0.0));
     const ImplicitStage stage = one.stage();
     NewtonSpace& space = one.scene.newton;
-    StageEquations equations(stage, one.memory, space, one.scene.stages);
+    StageEquations equations(stage, one.warm_start, space, one.scene.stages);
     equations.predict();
     const double kept = equations.smallest_fraction();
     CHECK(kept > 0.1);
@@ -78,22 +78,22 @@ TEST_CASE("A move is cut before it crosses, and velocities with it") {
     }
 }
 
-TEST_CASE("Blocks of single vertices stand before those of contact and belong to no row") {
+TEST_CASE("Blocks of single vertices stand before those of contact and belong to no constraint") {
     std::vector<SymmetricBlock> blocks(30);
     for (std::size_t i = 0; i < 30; ++i) blocks[i].fill(static_cast<double>(i));
     ContactTerms contact;
     contact.blocks.resize(50);
     set_vertex_blocks(blocks, contact);
     REQUIRE(contact.blocks.size() == 30);
-    Vectors forces, positions;
+    Vec3Arrays forces, positions;
     positions.resize(30);
-    std::vector<RowForce> row_forces;
-    add_contact({}, {}, positions, forces, contact, row_forces);
+    std::vector<ConstraintForce> constraint_forces;
+    add_contact({}, {}, positions, forces, contact, constraint_forces);
     REQUIRE(contact.blocks.size() == 30);
     for (int i = 0; i < 30; ++i) {
         CHECK(contact.blocks[i].vertex == std::array<int, 4>{i, -1, -1, -1});
         CHECK(contact.blocks[i].k == blocks[i]);
-        CHECK(contact.blocks[i].row == -1);
+        CHECK(contact.blocks[i].constraint == -1);
     }
 }
 

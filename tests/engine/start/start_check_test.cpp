@@ -9,7 +9,7 @@
 namespace percale::test::start_check_test {
 namespace {
 
-/// Finds what it was told to find.
+/// Finds the faults that the test sets.
 class FaultyDetector : public PlaneDetector {
 public:
     explicit FaultyDetector(StartFault fault) : fault_(std::move(fault)) {}

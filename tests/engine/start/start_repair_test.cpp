@@ -58,7 +58,7 @@ std::string refusal(Start& start) {
 
 }  // namespace
 
-TEST_CASE("What the detector frees is taken over and told") {
+TEST_CASE("Vertices that the detector frees are accepted and reported") {
     Start start(0.012);
     start.simulation.prepare();
     REQUIRE(start.simulation.start_repair().size() == 1);
@@ -74,7 +74,7 @@ TEST_CASE("What the detector frees is taken over and told") {
     CHECK(start.simulation.step().ok());
 }
 
-TEST_CASE("What that stretches is relaxed without gravity, motion or velocity") {
+TEST_CASE("The resulting stretch is relaxed without gravity, motion or velocity") {
     Start start(0.1);  // 9 cm over 7.5 cm: stretched by more than half
     start.simulation.set_velocities(start.cloth, std::vector<Vec3>(25, Vec3(1, 0, 0)));
     start.simulation.move_obstacle(start.plane, {.translation = Vec3(0, -0.001, 0)});
@@ -92,7 +92,7 @@ TEST_CASE("What that stretches is relaxed without gravity, motion or velocity") 
     CHECK(start.simulation.time() == 1.0 / 60.0);
 }
 
-TEST_CASE("A repair that the caller cancels leaves the start as it was, for a later call") {
+TEST_CASE("Resolving penetration that the caller cancels leaves the start as it was, for a later call") {
     Start start(0.012);
     const std::uint64_t before = start.simulation.state_hash();
     std::atomic<bool> cancel = true;
@@ -104,12 +104,13 @@ TEST_CASE("A repair that the caller cancels leaves the start as it was, for a la
     CHECK(start.simulation.start_repair().size() == 1);
 }
 
-TEST_CASE("Where the detector knows no way, or it stretches what pins hold, the start is refused and stays") {
+TEST_CASE("Where the detector finds no way, or a way stretches cloth that pins hold, the start is refused and stays") {
     Start none(0.0);
     const std::uint64_t before = none.simulation.state_hash();
     CHECK(refusal(none).find("the cloth starts inside floor: 2 vertices, one of them vertex 7 of towel, and no way out") == 0);
     CHECK(none.simulation.state_hash() == before);
-    // Held at 1 cm, below a floor at 15 cm, all but two vertices: those can only be above it stretched to twice their length.
+    // All but two vertices are held at 1 cm, below a floor at 15 cm: those two can only be above it stretched to twice their
+    // length.
     Start held(0.2, 0.01, 0.15);
     for (int v = 0; v < 25; ++v) {
         if (v != 6 && v != 7) held.simulation.pin(held.cloth, v);
@@ -122,7 +123,7 @@ TEST_CASE("Where the detector knows no way, or it stretches what pins hold, the 
     CHECK(held.simulation.start_repair().empty());
 }
 
-TEST_CASE("A clear start needs no repair") {
+TEST_CASE("A clear start has no penetration to resolve") {
     Start start(0.012, -0.02);
     const std::uint64_t before = start.simulation.state_hash();
     start.simulation.prepare();

@@ -6,7 +6,7 @@
 
 namespace percale::test::saved_identity_test {
 
-TEST_CASE("worlds of other cloth, layers or settings are told apart, worlds in other states are not") {
+TEST_CASE("worlds of other cloth, layers or settings are distinguished, and worlds in other states are not") {
     const auto world = [](double mass) {
         World made;
         made.scene.model.mass = {mass, 1.0};
@@ -22,7 +22,7 @@ TEST_CASE("worlds of other cloth, layers or settings are told apart, worlds in o
     layered.scene.script.pairs.set_layer(0, 2);
     CHECK(identity_of(layered).cloth != one.cloth);
     World other = world(1.0);
-    other.scene.settings.newton_share = 0.5;
+    other.scene.settings.newton_error_ratio = 0.5;
     CHECK(identity_of(other).settings != one.settings);
     other.scene.script.obstacles.push_back({});
     CHECK(identity_of(other).obstacles != one.obstacles);

@@ -9,7 +9,7 @@ namespace percale::test::saved_state_test {
 
 enum class Colour { red, green, blue };
 
-/// One of everything that can be taken down.
+/// One value of every type that can be saved.
 struct Everything {
     double number = 0.0;
     float small = 0.0F;
@@ -62,7 +62,7 @@ std::vector<std::byte> bytes_of(const Everything& everything) {
 
 }  // namespace
 
-TEST_CASE("Every bit of a value comes back") {
+TEST_CASE("Every bit of a value is restored") {
     const std::vector<std::byte> bytes = bytes_of(some());
     StateReader reader(bytes);
     Everything back;
@@ -101,7 +101,7 @@ TEST_CASE("A count of more than there can be is refused before any memory is ask
     }
 }
 
-TEST_CASE("What no writer writes is refused") {
+TEST_CASE("Bytes that no writer produces are refused") {
     StateWriter writer;
     writer(std::uint8_t{2}, 0, 3);
     const std::vector<std::byte> bytes = writer.take();
@@ -113,7 +113,7 @@ TEST_CASE("What no writer writes is refused") {
     CHECK(mentions(scene_error([&] { choices.choice(colour, 3); }), {"no such choice"}));
 }
 
-TEST_CASE("A seal tells its content from that of another kind or version and from what is cut off or damaged") {
+TEST_CASE("A seal distinguishes its content from other kinds and versions and from truncated or damaged bytes") {
     const std::vector<std::byte> content = bytes_of(some());
     const std::vector<std::byte> good = sealed(test_seal, content);
     const std::span<const std::byte> back = unsealed(test_seal, good);

@@ -26,7 +26,7 @@ Simulation sheet(const StepSettings& settings, const Fabric& fabric = sheet_fabr
     return simulation;
 }
 
-/// On the way of every kind: a pin is drawn aside, let go and held again, wind and gravity change.
+/// Changes of every kind: a pin is drawn aside, released and held again, wind and gravity change.
 void move_everything(Simulation& simulation, int step) {
     const ClothId cloth{0};
     if (step < 12) simulation.move_pin(cloth, 0, Vec3(-0.5, 0.01 * step, -0.5));
@@ -157,7 +157,7 @@ TEST_CASE("A resumed run makes the same steps in every bit: all solvers", "[slow
 TEST_CASE("A resumed run makes the same steps in every bit: fabrics and seams") { check_resumes(fabric_runs()); }
 TEST_CASE("A resumed run makes the same steps in every bit: contact and friction") { check_resumes(contact_runs()); }
 
-TEST_CASE("Cloth asleep stays asleep where it is resumed, and wakes by the same things") {
+TEST_CASE("Cloth asleep stays asleep after restoring, and wakes for the same reasons") {
     const auto make = [] {
         Fabric fabric = sheet_fabric();
         fabric.spring_damping = 1.0;
@@ -180,7 +180,7 @@ TEST_CASE("Cloth asleep stays asleep where it is resumed, and wakes by the same 
     CHECK(first_difference(run, {asleep_from - 10, asleep_from, 120}) == -1);
 }
 
-TEST_CASE("A state of one thread is resumed by two, and gravity, wind and time step come with it") {
+TEST_CASE("A state of one thread is resumed by two, and includes gravity, wind and time step") {
     Simulation one = sheet({});
     one.set_gravity({0, -1, 0});
     one.set_wind({1, 0, 0});
@@ -197,7 +197,7 @@ TEST_CASE("A state of one thread is resumed by two, and gravity, wind and time s
     CHECK(two.time() == Approx(0.06));
 }
 
-TEST_CASE("A simulation that has already run elsewhere takes a state as a new one does") {
+TEST_CASE("A simulation that has already run accepts a state like a new one") {
     const StepSettings settings{.measure = StepMeasures::all};
     Simulation one = sheet(settings), other = sheet(settings);
     for (int n = 0; n < 5; ++n) one.step();
@@ -243,8 +243,8 @@ TEST_CASE("Damaged states are refused and change nothing") {
     CHECK_NOTHROW(simulation.restore(good));
 }
 
-/// Bytes that are damaged but sealed well: what is read is either refused or can be stepped from without harm.
-TEST_CASE("No content of a well sealed state does harm") {
+/// Bytes that are damaged but sealed correctly: they are either refused or can be stepped from without harm.
+TEST_CASE("No content of a correctly sealed state does harm") {
     Simulation simulation = on_plane({.measure = StepMeasures::ledger}, 0.0);
     for (int n = 0; n < 10; ++n) simulation.step();
     const Saved good = simulation.save();
@@ -265,7 +265,7 @@ TEST_CASE("No content of a well sealed state does harm") {
     CHECK(taken > 100);
 }
 
-TEST_CASE("A state that no step could come to is refused with the reason, and nothing has changed") {
+TEST_CASE("A state that no step can reach is refused with the reason, and nothing has changed") {
     const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
     const auto make = [](Scheme scheme) {
         const TriangleMesh grid = make_grid(0.2, 0.2, 3, 3);
@@ -291,9 +291,12 @@ TEST_CASE("A state that no step could come to is refused with the reason, and no
         {"not finite", [=](World& w) { w.state.contact_dt = nan; }},
         {"not finite", [=](World& w) { w.state.cloth.velocities.set(3, Vec3(0, infinity, 0)); }},
         {"wrong number of vertices", [=](World& w) { w.state.cloth.positions.resize(20); }},
-        {"grip", [=](World& w) { w.state.cloth.grips.push_back({.vertex = 9, .obstacle = 0, .stretch = Vec3::Zero()}); }},
-        {"grip", [=](World& w) { w.state.cloth.grips.push_back({.vertex = 0, .obstacle = 1, .stretch = Vec3::Zero()}); }},
-        {"grip", [=](World& w) { w.state.cloth.grips.push_back({.vertex = 0, .obstacle = 0, .stretch = Vec3(nan, 0, 0)}); }},
+        {"stick anchor",
+         [=](World& w) { w.state.cloth.stick_anchors.push_back({.vertex = 9, .obstacle = 0, .stretch = Vec3::Zero()}); }},
+        {"stick anchor",
+         [=](World& w) { w.state.cloth.stick_anchors.push_back({.vertex = 0, .obstacle = 1, .stretch = Vec3::Zero()}); }},
+        {"stick anchor",
+         [=](World& w) { w.state.cloth.stick_anchors.push_back({.vertex = 0, .obstacle = 0, .stretch = Vec3(nan, 0, 0)}); }},
         {"move of nothing", [](World&) {}, Scheme::backward_euler, {move}},
         {"neither pinned nor free", [=](World& w) { w.scene.script.free[2] = 0.5; }},
         {"neither pinned nor free", [=](World& w) { w.scene.script.free.back() = 1.0; }},
@@ -308,7 +311,7 @@ TEST_CASE("A state that no step could come to is refused with the reason, and no
         {"wrong number of vertices", [=](World& w) { w.state.past.unbalanced.resize(20); }, Scheme::tr_bdf2},
         {"too short", [=](World& w) { w.state.control.length = 1e-300; }},
         {"below 0", [=](World& w) { w.state.control.left = -1.0; }},
-        {"below 0", [=](World& w) { w.state.control.share_before = nan; }},
+        {"below 0", [=](World& w) { w.state.control.error_ratio_before = nan; }},
     };
     for (const Fault& fault : faults) {
         World bad = make(fault.scheme), world = make(fault.scheme);
@@ -321,7 +324,7 @@ TEST_CASE("A state that no step could come to is refused with the reason, and no
     }
 }
 
-TEST_CASE("A detector that keeps no state refuses to be saved") {
+TEST_CASE("A detector without saved state refuses to be saved") {
     class Blind : public PlaneDetector {
     public:
         void save(StateWriter& state) const override { ContactDetector::save(state); }
@@ -331,7 +334,7 @@ TEST_CASE("A detector that keeps no state refuses to be saved") {
     CHECK(mentions(scene_error([&] { simulation.save(); }), {"cannot save its state"}));
 }
 
-TEST_CASE("A simulation to which cloth was added between steps goes on from what it saved") {
+TEST_CASE("A simulation to which cloth was added between steps continues from its saved state") {
     for (const Scheme scheme : {Scheme::backward_euler, Scheme::bdf2, Scheme::tr_bdf2}) {
         Simulation first({.scheme = scheme}), second({.scheme = scheme});
         for (Simulation* simulation : {&first, &second}) {
@@ -349,7 +352,7 @@ TEST_CASE("A simulation to which cloth was added between steps goes on from what
     }
 }
 
-TEST_CASE("a seam of points that was made in the midst of a run goes on closing in its own directions") {
+TEST_CASE("a seam of points that was made during a run continues to close in its own directions") {
     const auto make = [] {
         Simulation simulation({.measure = StepMeasures::ledger});
         simulation.add_cloth(make_grid(0.4, 0.4, 5, 5), sheet_fabric(), {.translation = {0, 0.1, 0}}, "one");

@@ -15,7 +15,7 @@ struct Banner {
     ClothId cloth;
 };
 
-/// Held by one edge, level at the start: it swings about its place of rest, which is straight down.
+/// A sheet held by one edge, level at the start: it swings about its place of rest, which is straight down.
 Banner make_banner(StepSettings settings, double spring_damping = 0.05) {
     settings.time_step = dt;
     Banner banner{Simulation(settings), {}};
@@ -68,7 +68,7 @@ TEST_CASE("A swinging sheet comes to rest many times sooner by kinetic damping, 
     for (int i = 30; i < 36; ++i) CHECK(x[i].y() < 0.5 + 1e-3);
 }
 
-TEST_CASE("The step that stops cloth leaves no speed, and what it takes is accounted for") {
+TEST_CASE("The step that stops cloth leaves no speed, and its loss is accounted for") {
     Banner banner = make_banner({.measure = StepMeasures::ledger, .kinetic_damping = true});
     double before = banner.simulation.energy().total();
     int stops = 0;
@@ -98,13 +98,13 @@ TEST_CASE("Cloth that creeps is left alone: overdamped, its potential falls in e
         for (const Vec3& x : simulation.positions(cloth)) stretched.push_back(1.1 * x);
         simulation.set_positions(cloth, stretched);
         for (int n = 0; n < 60; ++n) CHECK(simulation.step().ok());
-        CHECK(simulation.largest_strain() > 1e-3);  // still on its way
+        CHECK(simulation.largest_strain() > 1e-3);  // it is still moving
         return simulation.state_hash();
     };
     CHECK(hash_after(true) == hash_after(false));
 }
 
-TEST_CASE("Where the potential rises in every second step, every step stops cloth for a second, and then not") {
+TEST_CASE("Where the potential rises in every second step, every step stops cloth for one second, and then not") {
     const std::vector<bool> trembling = stops_of(2), swinging = stops_of(8);
     CHECK(count_of(swinging, 1, 200) == 24);
     CHECK(count_of(trembling, 1, 10) == 4);
@@ -115,7 +115,7 @@ TEST_CASE("Where the potential rises in every second step, every step stops clot
     CHECK(count_of(trembling, first + 62, first + 72) == 5);
 }
 
-TEST_CASE("A pin that moves ends the steps that all stop cloth") {
+TEST_CASE("A moving pin ends the sequence of steps that all stop cloth") {
     const std::vector<bool> stops = stops_of(2, 20, 30);
     CHECK(count_of(stops, 14, 20) == 6);
     CHECK(count_of(stops, 20, 30) == 0);

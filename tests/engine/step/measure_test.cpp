@@ -43,11 +43,11 @@ TEST_CASE("Strain and speed are the largest ones, without contact nothing is nea
     CHECK(report.largest_strain == Approx(std::sqrt(3.25) - 1.0).epsilon(1e-14));
     CHECK(report.smallest_distance == std::numeric_limits<double>::infinity());
     CHECK(report.contacts == 0);
-    CHECK(report.energy.work == 7.0);  // counted by the solve, kept by the measure
+    CHECK(report.energy.work == 7.0);  // counted by the solve, kept by the measurement
     CHECK(world.work.times.measure >= 0.0);
 }
 
-TEST_CASE("What is not to be measured is NaN in the report and still told on demand") {
+TEST_CASE("Unmeasured figures are NaN in the report and still available on demand") {
     CHECK(StepSettings{}.measure == StepMeasures::automatic);
     for (const StepMeasures measures : {StepMeasures::none, StepMeasures::automatic}) {
         for (const bool skip : {true, false}) {
@@ -85,7 +85,7 @@ TEST_CASE("Contacts are counted and hashed, and the hash follows their distances
         return report.contact_hash;
     };
     CHECK(hash() == first.contact_hash);
-    std::vector<double>& distances = world.work.newton.current.rows.distance;
+    std::vector<double>& distances = world.work.newton.current.constraints.distance;
     distances[3] = std::nextafter(distances[3], 1.0);
     CHECK(hash() != first.contact_hash);
 }

@@ -35,7 +35,7 @@ Sheet make_sheet(const StepSettings& settings = {.time_step = dt}) {
     return sheet;
 }
 
-/// Steps until all cloth sleeps; the number of steps, or -1.
+/// Makes steps until all cloth sleeps; the number of steps, or -1.
 int steps_to_sleep(Simulation& simulation, int most = 600) {
     for (int n = 0; n < most; ++n) {
         if (simulation.step().slept) return n;
@@ -45,12 +45,12 @@ int steps_to_sleep(Simulation& simulation, int most = 600) {
 
 }  // namespace
 
-TEST_CASE("A sheet that has come to rest sleeps: time passes, nothing moves, nothing is asked or solved") {
+TEST_CASE("A sheet that has come to rest sleeps: time passes, nothing moves, nothing is solved") {
     Sheet sheet = make_sheet({.time_step = dt, .measure = StepMeasures::all});
     REQUIRE(steps_to_sleep(sheet.simulation) > 30);
     const std::uint64_t state = sheet.simulation.state_hash();
     const double time = sheet.simulation.time();
-    const int refreshes = sheet.detector->refreshes;
+    const int candidate_updates = sheet.detector->candidate_updates;
     const StepEnergy energy = sheet.simulation.energy();
     for (int n = 1; n <= 20; ++n) {
         const StepReport report = sheet.simulation.step();
@@ -64,7 +64,7 @@ TEST_CASE("A sheet that has come to rest sleeps: time passes, nothing moves, not
         CHECK(std::isnan(report.energy.dissipated()));
     }
     CHECK(sheet.simulation.state_hash() == state);
-    CHECK(sheet.detector->refreshes == refreshes);
+    CHECK(sheet.detector->candidate_updates == candidate_updates);
     for (const Vec3& v : sheet.simulation.velocities(sheet.cloth)) CHECK(v == Vec3::Zero());
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("A sheet asleep is where it would be without sleep") {
     CHECK(largest < 2e-5);
 }
 
-TEST_CASE("Whatever changes the scene wakes the cloth") {
+TEST_CASE("Every change of the scene wakes the cloth") {
     using Change = std::function<void(Sheet&)>;
     const std::pair<const char*, Change> list[] = {
         {"pin", [](Sheet& s) { s.simulation.pin(s.cloth, 14); }},
@@ -108,7 +108,7 @@ TEST_CASE("Whatever changes the scene wakes the cloth") {
     }
 }
 
-TEST_CASE("Calls that change nothing let the cloth sleep on") {
+TEST_CASE("Calls that change nothing leave the cloth asleep") {
     Sheet sheet = make_sheet();
     REQUIRE(steps_to_sleep(sheet.simulation) > 0);
     sheet.simulation.set_gravity(Vec3(0, -9.81, 0));
@@ -132,19 +132,19 @@ TEST_CASE("A sheet lying on a plane sleeps with its contacts reported, and wakes
     CHECK(simulation.step().largest_speed > 0.1);
 }
 
-TEST_CASE("What falls, swings or is pulled does not sleep, even where it is slow") {
+TEST_CASE("Cloth that falls, swings or is pulled does not sleep, even where it is slow") {
     Simulation thrown({.time_step = dt});
     const ClothId sheet = thrown.add_cloth(make_grid(0.5, 0.5, 3, 3), sheet_fabric());
     thrown.set_velocities(sheet, std::vector<Vec3>(9, Vec3(0, 9.81, 0)));
     CHECK(steps_to_sleep(thrown, 120) == -1);  // turns after 1 s
 
-    // Weightless and drifting by 1e-4 m a second, a tenth of what a stick would creep.
+    // Weightless and drifting by 1e-4 m a second, a tenth of the creep of a sticking contact.
     Simulation drifting({.time_step = dt, .gravity = Vec3::Zero()});
     const ClothId cloth = drifting.add_cloth(make_grid(0.5, 0.5, 3, 3), sheet_fabric());
     drifting.set_velocities(cloth, std::vector<Vec3>(9, Vec3(1e-4, 0, 0)));
     CHECK(steps_to_sleep(drifting, 300) == -1);
 
-    // A pin that creeps on.
+    // A pin that continues to creep.
     Sheet pulled = make_sheet();
     for (int n = 0; n < 300; ++n) {
         pulled.simulation.move_pin(pulled.cloth, 0, pulled.at(0) + Vec3(-1e-9, 0, 0));
@@ -157,8 +157,8 @@ TEST_CASE("A still cloth whose forces are out of balance is not at rest") {
     World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, {.time_step = dt});
     world.scene.plan.rest = true;
     StepReport report;
-    Vectors& velocities = world.state.cloth.velocities;
-    const Vectors before = velocities;
+    Vec3Arrays& velocities = world.state.cloth.velocities;
+    const Vec3Arrays before = velocities;
     const auto follow = [&] { update_rest(world.scene, before, world.state.cloth, world.rest, report); };
     for (int i = 0; i < 9; ++i) velocities.set(i, Vec3(0, 0.019 * 9.81 * dt, 0));
     velocities.set(4, Vec3(0, 0.021 * 9.81 * dt, 0));
@@ -171,7 +171,7 @@ TEST_CASE("A still cloth whose forces are out of balance is not at rest") {
     CHECK(report.sleeping_cloths == 1);
 }
 
-TEST_CASE("What is slow enough is at rest where a speed of rest is said") {
+TEST_CASE("Cloth below a given rest speed is at rest") {
     for (const double speed : {1e-4, 4e-4}) {
         Simulation drifting({.time_step = dt, .rest_speed = 2e-4, .gravity = Vec3::Zero()});
         const ClothId cloth = drifting.add_cloth(make_grid(0.5, 0.5, 3, 3), sheet_fabric());
@@ -180,11 +180,11 @@ TEST_CASE("What is slow enough is at rest where a speed of rest is said") {
     }
 }
 
-TEST_CASE("Sleep comes half a second after the last move, however many steps that is") {
+TEST_CASE("Sleep begins half a second after the last move, for any number of steps") {
     for (const double step : {0.1, 0.01}) {
         TriangleMesh grid = make_grid(0.5, 0.5, 3, 3);
         World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, {.time_step = step});
-        const Vectors before = world.state.cloth.velocities;
+        const Vec3Arrays before = world.state.cloth.velocities;
         int steps = 0;
         while (!world.rest.asleep && steps < 1000) {
             StepReport report;

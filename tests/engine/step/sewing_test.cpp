@@ -5,7 +5,7 @@
 
 namespace percale::test::step_sewing_test {
 
-TEST_CASE("A stitch joins a vertex to itself at either end of its edge, or to it alone") {
+TEST_CASE("A stitch joins a vertex to itself at either end of its edge, or where both ends are that vertex") {
     CHECK(joins_itself({3, 3, 3}));
     CHECK(joins_itself({3, 3, 4, 0.5}));
     CHECK(joins_itself({3, 4, 3, 0.5}));
@@ -27,7 +27,7 @@ TEST_CASE("Rest lengths of new springs are added to a state that has its own, an
     CHECK(own == std::vector{7.0, 2.0, 3.0});
 }
 
-TEST_CASE("A seam that is sewn gets the next number, begins now and has the plan made anew") {
+TEST_CASE("A seam that is sewn gets the next number, begins now and makes the plan outdated") {
     const TriangleMesh grid = make_grid(1.0, 1.0, 3, 3);
     World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, {});
     world.state.time = 2.0;
@@ -41,8 +41,7 @@ TEST_CASE("A seam that is sewn gets the next number, begins now and has the plan
     CHECK(world.plan_outdated);
 }
 
-TEST_CASE(
-    "Welds of closed seams tighten at the beginning of a step, those of others wait, and a step that failed gives it back") {
+TEST_CASE("Welds of closed seams tighten at the beginning of a step, those of others wait, and a failed step restores them") {
     const TriangleMesh grid = make_grid(1.0, 1.0, 3, 3);
     World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, {});
     sew(world, std::vector<Stitch>{{0, 8, 8}}, {.over = 0.0, .stiffness = 3.0, .weld = true});

@@ -29,7 +29,7 @@ void pin(World& world, int vertex, const Vec3& move) {
 
 }  // namespace
 
-TEST_CASE("Each scheme takes its own way through a step") {
+TEST_CASE("Each scheme has its own path through a step") {
     for (const Scheme scheme : {Scheme::symplectic_euler, Scheme::rk4, Scheme::backward_euler}) {
         World world = sheet_world({.time_step = 1e-4, .scheme = scheme});
         const StepReport report = solve(world);
@@ -41,7 +41,7 @@ TEST_CASE("Each scheme takes its own way through a step") {
     }
 }
 
-TEST_CASE("A step that does not converge is redone in halves and says so") {
+TEST_CASE("A step that does not converge is redone in halves and reports so") {
     World world = sheet_world({.time_step = 1.0 / 60.0, .newton_tolerance = 1e-6, .newton_iterations = 3});
     Random random(5);
     for (int i = 0; i < 16; ++i) world.state.cloth.velocities.set(i, random.point(3.0));
@@ -68,7 +68,7 @@ TEST_CASE("A step of one iteration is linearly implicit and never redone") {
     CHECK(report.halvings == 0);
 }
 
-TEST_CASE("The estimated error of a backward Euler step in free fall is what the step is off, g dt^2 / 2") {
+TEST_CASE("The estimated error of a backward Euler step in free fall is its true error, g dt^2 / 2") {
     for (const double dt : {1.0 / 30.0, 1.0 / 120.0}) {
         Simulation simulation({.time_step = dt});
         const ClothId sheet = simulation.add_cloth(make_grid(0.4, 0.4, 5, 5), sheet_fabric());
@@ -120,7 +120,7 @@ TEST_CASE("A plane that drives through held cloth is too fast") {
     CHECK(report.blocking_obstacle == 0);
 }
 
-TEST_CASE("A plane that drives under free cloth takes it along") {
+TEST_CASE("A plane that moves under free cloth carries it along") {
     World world = sheet_world({.measure = StepMeasures::all}, 0.02);
     add_plane(world);
     world.scene.script.obstacles[0].end.translation = Vec3(0, 0.05, 0);
@@ -130,7 +130,7 @@ TEST_CASE("A plane that drives under free cloth takes it along") {
     CHECK(report.energy.work > 0.0);
 }
 
-TEST_CASE("Steps that become shorter do not throw up cloth that rests") {
+TEST_CASE("Steps that become shorter do not throw up cloth at rest") {
     const double thickness = sheet_fabric().thickness;
     for (const double shorter : {1.0 / 120.0, 1.0 / 1200.0}) {
         Simulation simulation({}, std::make_unique<PlaneDetector>());

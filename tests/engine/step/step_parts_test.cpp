@@ -27,16 +27,16 @@ struct RestingSheet {
         corner = simulation.positions(cloth)[0];
     }
     /// 0.95 m to the side: 10 parts of less than 0.1 m.
-    void aim(double share) {
+    void aim(double fraction) {
         const Vec3 way(0.95, 0.0, 0.0), target = corner + way;
-        simulation.move_obstacle(plane, {.translation = share * way});
-        simulation.move_pin(cloth, 0, share == 1.0 ? target : Vec3(corner + share * (target - corner)));
+        simulation.move_obstacle(plane, {.translation = fraction * way});
+        simulation.move_pin(cloth, 0, fraction == 1.0 ? target : Vec3(corner + fraction * (target - corner)));
     }
 };
 
 }  // namespace
 
-TEST_CASE("A step in which an obstacle moves far does what as many short ones do, bit for bit") {
+TEST_CASE("A step in which an obstacle moves far does the same as many short ones, bit for bit") {
     const StepSettings settings{.measure = StepMeasures::ledger};
     RestingSheet far(settings), by_hand(settings);
     far.aim(1.0);
@@ -72,10 +72,10 @@ TEST_CASE("A step in which an obstacle moves far does what as many short ones do
     CHECK(report.energy.closure() < 1e-6);
 }
 
-TEST_CASE("Where a part fails, all parts are taken back") {
+TEST_CASE("Where a part fails, all parts are undone") {
     const StepSettings settings{.measure = StepMeasures::all};
     RestingSheet scene(settings), other(settings);
-    // Away first, so that the plane only meets the pinned corner after some parts of its way back.
+    // The plane first moves away, so that it meets the pinned corner only after some parts of its way back.
     other.simulation.move_obstacle(other.plane, {.translation = Vec3(0.0, -1.0, 0.0)});
     REQUIRE(other.simulation.step().parts == 10);
     scene.simulation.move_obstacle(scene.plane, {.translation = Vec3(0.0, -1.0, 0.0)});
@@ -93,14 +93,14 @@ TEST_CASE("Where a part fails, all parts are taken back") {
     CHECK(scene.simulation.time() == time);
     CHECK(scene.simulation.state_hash() == hash);
     CHECK(scene.simulation.obstacle_pose(scene.plane).translation == Vec3(0.0, -1.0, 0.0));
-    for (RestingSheet* either : {&scene, &other}) {  // nothing that later steps go by is left of it
+    for (RestingSheet* either : {&scene, &other}) {  // no trace of it influences later steps
         either->simulation.move_obstacle(either->plane, {.translation = Vec3(0.0, -0.5, 0.0)});
         for (int n = 0; n < 5; ++n) CHECK(either->simulation.step().ok());
     }
     CHECK(scene.simulation.state_hash() == other.simulation.state_hash());
 }
 
-TEST_CASE("A pin that goes with an obstacle which turns keeps its place on it in every part, another goes straight") {
+TEST_CASE("A pin that goes with an obstacle which turns keeps its place on it in every part, and another moves straight") {
     const TriangleMesh sheet = make_grid(0.4, 0.4, 5, 5);
     World world = make_world(cloth_model(sheet, sheet_fabric()), sheet.vertices, {});
     const Pose start{.translation = Vec3(0, -0.5, 0)};
@@ -112,7 +112,7 @@ TEST_CASE("A pin that goes with an obstacle which turns keeps its place on it in
     world.scene.script.pin_targets.set(4, other);
     const auto arrive = [](World& now) {
         ObstacleState& wheel = now.scene.script.obstacles[0];
-        const Vec3 place(-0.2, 0.5, -0.2);  // of the sheet's corner, seen from the wheel
+        const Vec3 place(-0.2, 0.5, -0.2);  // of the sheet's corner, in the frame of the wheel
         CHECK((now.scene.script.pin_targets.at(0) - transform(wheel.end, place)).norm() < 1e-12);
         CHECK(now.scene.script.pin_targets.at(4).x() == 0.2);
         wheel.start = wheel.end;
@@ -122,7 +122,7 @@ TEST_CASE("A pin that goes with an obstacle which turns keeps its place on it in
     CHECK(world.scene.script.pin_targets.at(4) == other);
 }
 
-TEST_CASE("An obstacle that jumps farther than cloth can follow fails the step at once and says so") {
+TEST_CASE("An obstacle that jumps farther than cloth can follow fails the step at once and is reported") {
     RestingSheet scene;
     const std::uint64_t hash = scene.simulation.state_hash();
     scene.simulation.move_obstacle(scene.plane, {.translation = Vec3(50.0, 0.0, 0.0)});
@@ -135,7 +135,7 @@ TEST_CASE("An obstacle that jumps farther than cloth can follow fails the step a
     CHECK(scene.simulation.obstacle_pose(scene.plane).translation == Vec3::Zero());
 }
 
-TEST_CASE("What turns or goes a few parts far in a step did not jump") {
+TEST_CASE("An obstacle that turns or moves a few parts far in a step did not jump") {
     RestingSheet scene;
     scene.simulation.move_obstacle(scene.plane, {.rotation = {std::cos(1.2), 0.0, std::sin(1.2), 0.0}});  // 137 degrees about y
     const StepReport turn = scene.simulation.step();
@@ -159,7 +159,7 @@ TEST_CASE("A pin that jumps farther than cloth with contact can follow fails the
     CHECK(scene.simulation.state_hash() == hash);
     scene.simulation.move_pin(scene.cloth, 0, scene.corner + Vec3(0.0, 0.95, 0.0));
     CHECK(scene.simulation.step().parts == 3);
-    // Without anything to meet, cloth may be pulled as fast as anyone likes.
+    // Without contact, cloth may be pulled at any speed.
     Simulation free(StepSettings{});
     const ClothId cloth = free.add_cloth(make_grid(0.5, 0.5, 4, 4), sheet_fabric());
     free.pin(cloth, 0);
@@ -167,7 +167,7 @@ TEST_CASE("A pin that jumps farther than cloth with contact can follow fails the
     CHECK(free.step().parts == 1);
 }
 
-TEST_CASE("The limit of work may be changed on the way") {
+TEST_CASE("The limit of work may be changed during a run") {
     RestingSheet scene;
     scene.simulation.move_pin(scene.cloth, 0, scene.corner + Vec3(0.0, 0.05, 0.0));
     scene.simulation.set_work_limit(1);
@@ -190,7 +190,7 @@ TEST_CASE("A step that takes more Newton iterations than work_limit fails and le
         CHECK(free.simulation.step().newton_iterations > 3);
         const StepReport report = limited.simulation.step();
         CHECK(report.status == StepStatus::work_limit);
-        CHECK(report.newton_iterations <= 3);  // a trial for rows that were out of reach counts, too
+        CHECK(report.newton_iterations <= 3);  // a trial for trial contacts counts, too
         CHECK(mentions(report.explanation(), {"work_limit", "Newton iterations"}));
         CHECK(limited.simulation.state_hash() == hash);
     }
@@ -216,7 +216,7 @@ void check_cancelled(Simulation& simulation) {
 
 }  // namespace
 
-TEST_CASE("A step that is cancelled fails and leaves every bit, by any scheme, in parts as in one, and the next one goes on") {
+TEST_CASE("A cancelled step fails and leaves every bit, by any scheme, in parts as in one, and the next one continues") {
     for (const StepSettings& settings :
          {StepSettings{}, StepSettings{.adaptive = true}, StepSettings{.scheme = Scheme::tr_bdf2}}) {
         for (const bool far : {false, true}) {

@@ -14,7 +14,7 @@ World sheet_world(const StepSettings& settings) {
 
 }  // namespace
 
-TEST_CASE("Threads are as many as were asked for, with auto as many as pay and the machine has") {
+TEST_CASE("There are as many threads as requested, with auto as many as pay and the machine has") {
     World world = sheet_world({.threads = 3});
     set_workers(world);
     REQUIRE(world.workers);
@@ -25,13 +25,13 @@ TEST_CASE("Threads are as many as were asked for, with auto as many as pay and t
     set_workers(world);
     CHECK(world.workers == nullptr);
     CHECK(world.scene.compute.threads() == 1);
-    REQUIRE(world.scene.model.vertex_count() < 2 * least_vertices_a_thread);
+    REQUIRE(world.scene.model.vertex_count() < 2 * min_vertices_a_thread);
     world.scene.settings.threads = 0;
     set_workers(world);
     CHECK(world.workers == nullptr);
 }
 
-TEST_CASE("Workers that were given are kept, whatever the settings say") {
+TEST_CASE("Given workers are kept, whatever the settings are") {
     World world = sheet_world({.threads = 5});
     world.own_workers = false;
     world.workers = make_workers(2);
@@ -39,7 +39,7 @@ TEST_CASE("Workers that were given are kept, whatever the settings say") {
     CHECK(world.scene.compute.threads() == 2);
 }
 
-TEST_CASE("Schemes that take no contact are refused where there is some") {
+TEST_CASE("Schemes without contact are refused where the scene has some") {
     World world = sheet_world({.scheme = Scheme::rk4});
     CHECK_NOTHROW(check_scheme(world.scene));
     world.scene.model.cloths[0].fabric.self_contact = true;

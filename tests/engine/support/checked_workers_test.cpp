@@ -11,7 +11,7 @@
 namespace percale::test::checked_workers_test {
 namespace {
 
-/// A host that does what it is told to do wrong.
+/// A host that violates the contract as the test sets it.
 class FaultyHost : public Workers {
 public:
     int threads() const override { return said; }
@@ -29,7 +29,7 @@ public:
 
 }  // namespace
 
-TEST_CASE("a host whose number of threads is none is refused") {
+TEST_CASE("a host without threads is refused") {
     for (const int threads : {0, -1, 65, 1000000000}) {
         const auto host = std::make_shared<FaultyHost>();
         host->said = threads;
@@ -39,7 +39,7 @@ TEST_CASE("a host whose number of threads is none is refused") {
     }
 }
 
-TEST_CASE("a host that does each part once is believed; one that does not is told of at once, and from then on") {
+TEST_CASE("a host that does each part once is accepted; another one is reported at once, and from then on") {
     for (const std::string fault : {"leaves out", "twice", "slot", "beyond", "throws"}) {
         CAPTURE(fault);
         const auto host = std::make_shared<FaultyHost>();

@@ -17,7 +17,7 @@ namespace {
 
 const Fabric sheet{.area_density = 0.2, .springs = {.structural = 1000.0, .shear = 500.0, .bend = 10.0}, .spring_damping = 0.1};
 
-/// The states of a hanging sheet that is large enough to be shared out.
+/// The states of a hanging sheet that is large enough to be divided.
 std::vector<std::uint64_t> hanging_sheet(int threads, int steps, std::shared_ptr<Workers> workers = nullptr) {
     StepSettings settings;
     settings.threads = threads;
@@ -54,7 +54,7 @@ TEST_CASE("every part is done once, by slots that no two threads have at a time"
     }
 }
 
-TEST_CASE("no more threads work than there are parts") {
+TEST_CASE("at most as many threads work as there are parts") {
     ThreadPool pool(5);
     std::atomic<int> highest = 0, done = 0;
     auto note = [&](int, int slot) {
@@ -68,7 +68,7 @@ TEST_CASE("no more threads work than there are parts") {
     CHECK(done == 4005);
 }
 
-TEST_CASE("the threads of a pool work at the same time, and what they wrote is there after the run") {
+TEST_CASE("the threads of a pool work at the same time, and their results are there after the run") {
     ThreadPool pool(3);
     std::atomic<int> arrived = 0;
     // Each part waits for the others: a pool that did them one after the other would never return.
@@ -124,7 +124,7 @@ TEST_CASE("threads that wait take no CPU time") {
 TEST_CASE("CPU time of the other threads is counted") {
     ThreadPool pool(2);
     std::atomic<int> arrived = 0;
-    std::vector<double> sums(2, 0.0);  // Catch's assertions are for one thread alone
+    std::vector<double> sums(2, 0.0);  // Catch's assertions are for one thread only
     auto work = [&](int part, int) {
         ++arrived;
         while (arrived < 2) std::this_thread::yield();
@@ -137,7 +137,7 @@ TEST_CASE("CPU time of the other threads is counted") {
     CHECK(pool.other_cpu_seconds() > 1e-3);
 }
 
-TEST_CASE("a number of threads that no pool can have is refused") {
+TEST_CASE("an invalid number of threads is refused") {
     CHECK(make_workers(3)->threads() == 3);
     CHECK(make_workers(0)->threads() >= 1);
     for (const int threads : {-1, 65}) {

@@ -53,7 +53,7 @@ namespace {
 
 constexpr double sheet_size = 0.5;  // m
 
-/// A scene that has come to a quiet motion: what it needs of memory it has.
+/// A scene that has reached a quiet motion: its memory has its final size.
 struct Scene {
     const char* name;
     StepSettings settings = {};
@@ -133,7 +133,7 @@ std::vector<Scene> scenes() {
 
 }  // namespace
 
-TEST_CASE("The counter sees what is allocated") {
+TEST_CASE("The counter sees allocations") {
     counted = 0;
     counting = true;
     std::vector<double> some(100, 1.0);
@@ -143,7 +143,7 @@ TEST_CASE("The counter sees what is allocated") {
     CHECK(some[99] + aligned[99] == 2.0);
 }
 
-TEST_CASE("Interpolation, and normals into memory of the caller's but for one list, allocate nothing") {
+TEST_CASE("Interpolation, and normals into the caller's memory except for one list, allocate nothing") {
     Simulation simulation = make_scene({.name = "ball", .settings = {}, .ball = true});
     simulation.keep_previous_positions();
     for (int n = 0; n < 60; ++n) simulation.step();

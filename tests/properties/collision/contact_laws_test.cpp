@@ -21,7 +21,7 @@ Fabric fabric(double spring_damping = 0.1) {
 
 Rotation about_y(double angle) { return {std::cos(0.5 * angle), 0.0, std::sin(0.5 * angle), 0.0}; }
 
-/// A strip without weight over a cylinder about y, pinned at one end and pulled at the other. It goes straight, round `angle`,
+/// A strip without weight over a cylinder about y, pinned at one end and pulled at the other. It runs straight, round `angle`,
 /// and straight again.
 struct Strip {
     static constexpr int columns = 65;
@@ -87,7 +87,7 @@ TEST_CASE("A strip pulled over a cylinder has the tensions of the capstan", "[la
     for (const double friction : {0.1, 0.5}) {
         Strip strip(friction, response);
         for (int i = 0; i < 30; ++i) strip.pull(0.0005);
-        // Facets pass under the vertices: the ratio goes up and down about its mean.
+        // Facets pass under the vertices: the ratio oscillates about its mean.
         double error = 0.0;
         for (int i = 0; i < 30; ++i) {
             strip.pull(0.0005);
@@ -159,13 +159,13 @@ TEST_CASE("A conveyor carries cloth along once friction has sped it up", "[law]"
         CHECK(mean(simulation.velocities(cloth)).x() == Approx(expected).epsilon(0.02).margin(0.01));
     }
     for (const Vec3& v : simulation.velocities(cloth)) CHECK((v - Vec3(speed, 0, 0)).norm() < 1e-3);
-    // It lags behind by v^2/(2 mu g), and by what a step's rounding of the time takes.
+    // It lags behind by v^2/(2 mu g), and by a step's rounding of the time.
     const double lag = speed - (mean(simulation.positions(cloth)) - start).x();
     check_law("conveyor: error of how far cloth lags behind, m", std::abs(lag - speed * speed / (2.0 * mu * g)),
               0.5 * speed * dt + 1e-3);
 }
 
-TEST_CASE("A turning ball takes the cloth on it along, through steps of any length", "[law]") {
+TEST_CASE("A turning ball carries the cloth on it along, through steps of any length", "[law]") {
     const double spin = 2.0;
     for (const double dt : {1.0 / 60.0, 1.0 / 240.0}) {
         Simulation simulation = simulation_on_meshes({.time_step = dt});
@@ -189,7 +189,7 @@ TEST_CASE("A turning ball takes the cloth on it along, through steps of any leng
     }
 }
 
-TEST_CASE("A sheet on a ball comes to rest and falls asleep, at no less than half the thickness") {
+TEST_CASE("A sheet on a ball comes to rest and falls asleep, at half the thickness or more") {
     Simulation simulation = simulation_on_meshes({.time_step = 1.0 / 60.0});
     const ClothId cloth = simulation.add_cloth(make_grid(0.5, 0.5, 17, 17), fabric(1.0), {.translation = Vec3(0.01, 0.3, 0.02)});
     simulation.add_obstacle(make_sphere(0.25, 3), {}, {.friction = 0.4, .name = "ball"});
@@ -259,7 +259,7 @@ TEST_CASE("A light sheet that falls on a ball never gains energy") {
     }
 }
 
-TEST_CASE("What vertices hold on to is part of the state") {
+TEST_CASE("Stick anchors of vertices are part of the state") {
     const auto make = [] {
         Simulation simulation = simulation_on_meshes({.time_step = 1.0 / 60.0, .gravity = Vec3(0.0, -g, 0.0)});
         simulation.add_cloth(make_grid(0.2, 0.2, 4, 4), fabric(), {.translation = Vec3(0.0, 0.05 + 0.8 * h, 0.0)});
@@ -275,7 +275,7 @@ TEST_CASE("What vertices hold on to is part of the state") {
     const std::vector<Vec3> x(b.positions(cloth).begin(), b.positions(cloth).end());
     b.set_positions(cloth, x);
     CHECK(a.state_hash() != b.state_hash());
-    // Held it stays; what was put anew gives until it holds again.
+    // With its stick anchors it stays; reset cloth slips until it sticks again.
     step_well(a);
     step_well(b);
     CHECK((mean(a.positions(cloth)) - mean(x)).norm() < 1e-3 * h);

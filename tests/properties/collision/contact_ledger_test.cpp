@@ -25,7 +25,7 @@ StepSettings settings_of(ContactResponse response) {
     return {.time_step = 1.0 / 60.0, .contact_response = response, .measure = StepMeasures::ledger};
 }
 
-/// A run's ledger: what was summed, the worst closure of a step, the largest energy that changed contacts gave in a step.
+/// A run's ledger: its sum, the worst closure of a step, the largest energy that changed contacts gave in a step.
 struct Ledger {
     StepEnergy sum;
     double worst = 0.0, given = 0.0;
@@ -65,8 +65,8 @@ TEST_CASE("The energy ledger of a sheet on a ball that rises and turns closes", 
         CHECK(ledger.sum.dissipated_friction > 0.0);
         check_law("ledger of a sheet on a moving ball, " + form(response) + ": worst step, of its largest term", ledger.worst,
                   1e-10);
-        tell_law("ledger of a sheet on a moving ball, " + form(response) + ": most that changed contacts gave in a step, J",
-                 figure(ledger.given), "of " + figure(ledger.sum.dissipated()) + " dissipated");
+        report_law("ledger of a sheet on a moving ball, " + form(response) + ": most that changed contacts gave in a step, J",
+                   figure(ledger.given), "of " + figure(ledger.sum.dissipated()) + " dissipated");
     }
 }
 
@@ -122,7 +122,7 @@ TEST_CASE("Adaptive steps on a ball that moves gain no energy but the ball's wor
             energy = report.energy.total();
         }
         CAPTURE(gained / scale);
-        CHECK(gained < 0.03 * scale);  // 16 times `scale` where stiffness went by the length of the span
+        CHECK(gained < 0.03 * scale);  // 16 times `scale` if stiffness follows the length of the substep
     }
 }
 

@@ -9,7 +9,7 @@
 
 namespace percale::test::contact_loads_law_test {
 
-// What cloth presses its obstacles with, against the exact balance of forces.
+// The forces of cloth on its obstacles, against the exact balance of forces.
 
 namespace {
 
@@ -124,7 +124,7 @@ TEST_CASE("A plate balanced off the top of a ball turns the ball by weight times
         CHECK((torque - exact).norm() < 1e-6 * exact.norm());
         const Vec3 p(1, 2, 3), difference = simulation.torque_on(ball, p) - torque;
         CHECK((difference - (centre - p).cross(simulation.force_on(ball))).norm() < 1e-12);
-        // By where loads say that they act.
+        // By the points at which loads act.
         Vec3 sum = Vec3::Zero();
         for (const ContactLoad& load : simulation.contact_loads(cloth)) {
             sum -= (load.cloth_point - centre).cross(load.force());
@@ -135,8 +135,8 @@ TEST_CASE("A plate balanced off the top of a ball turns the ball by weight times
     }
 }
 
-TEST_CASE("Vertices that are pressed are told with the numbers of their mesh, in order", "[law]") {
-    // A free mesh has another order inside. Half of it lies on a box, the other half hangs over.
+TEST_CASE("Pressed vertices are reported with the numbers of their mesh, in order", "[law]") {
+    // A free mesh has another internal order. Half of it lies on a box, the other half hangs over.
     Simulation simulation = on_meshes({});
     TriangleMesh sheet = make_grid(0.2, 0.14, 9, 7);
     sheet.grid_columns = sheet.grid_rows = 0;
@@ -156,7 +156,7 @@ TEST_CASE("Vertices that are pressed are told with the numbers of their mesh, in
     }
 }
 
-TEST_CASE("Contact forces are known again in a resumed run, and unknown where cloth was placed anew") {
+TEST_CASE("Contact forces are known again in a resumed run, and unknown after cloth was placed elsewhere") {
     const auto make = [] {
         Simulation simulation = on_meshes({});
         simulation.add_cloth(make_grid(0.3, 0.3, 9, 9), fabric(), {.translation = {0, 0.206, 0}});

@@ -5,7 +5,7 @@
 #include "tests/support/collision/backends.h"
 #include "tests/support/collision/steps.h"
 
-// Obstacles whose every vertex goes its own way.
+// Obstacles whose vertices move one by one.
 namespace percale::test::deforming_body_test {
 namespace {
 
@@ -78,7 +78,7 @@ bool says(const std::string& text, const std::string& part) { return text.find(p
 
 }  // namespace
 
-TEST_CASE("Cloth on a body that bends never crosses it, and comes as near as elsewhere", "[slow]") {
+TEST_CASE("Cloth on a body that deforms never crosses it, and comes as near as elsewhere", "[slow]") {
     for (const ContactResponse response : {ContactResponse::penalty, ContactResponse::projection}) {
         Breathing scene(backends().back(), {.contact_response = response});
         double nearest = 1.0;
@@ -94,7 +94,7 @@ TEST_CASE("Cloth on a body that bends never crosses it, and comes as near as els
     }
 }
 
-TEST_CASE("A bending body is met alike by every tree, on any number of threads, and resumed in every bit", "[slow]") {
+TEST_CASE("A deforming body gives the same with every tree and number of threads, and resumed in every bit", "[slow]") {
     std::vector<std::uint64_t> hashes;
     for (const Backend& backend : backends()) {
         for (const int threads : {1, 3}) {
@@ -105,7 +105,7 @@ TEST_CASE("A bending body is met alike by every tree, on any number of threads, 
     }
     Breathing saved, resumed;
     for (int n = 0; n < 15; ++n) saved.step();
-    saved.simulation.deform_obstacle(saved.body, breathing(saved.ball, 16 * dt));  // told, not yet gone
+    saved.simulation.deform_obstacle(saved.body, breathing(saved.ball, 16 * dt));  // set, not yet reached
     resumed.simulation.restore(saved.simulation.save());
     CHECK(same_bits(std::vector<Vec3>(resumed.simulation.obstacle_shape(resumed.body).begin(),
                                       resumed.simulation.obstacle_shape(resumed.body).end()),
@@ -118,7 +118,7 @@ TEST_CASE("A bending body is met alike by every tree, on any number of threads, 
 }
 
 TEST_CASE("A shape that moves as a whole carries cloth as a pose does") {
-    // A plate under a sheet goes and turns: by its pose, or vertex by vertex.
+    // A plate under a sheet translates and turns: by its pose, or vertex by vertex.
     const TriangleMesh plate = make_box({0.5, 0.05, 0.5});
     const auto run = [&](bool by_shape) {
         Simulation simulation({}, backends().back().make_detector());
@@ -141,11 +141,11 @@ TEST_CASE("A shape that moves as a whole carries cloth as a pose does") {
     const std::vector<Vec3> rigid = run(false), bent = run(true);
     double apart = 0.0;
     for (std::size_t i = 0; i < rigid.size(); ++i) apart = std::max(apart, (rigid[i] - bent[i]).norm());
-    CHECK(rigid[40].x() > 0.3);  // it went along
+    CHECK(rigid[40].x() > 0.3);  // it was carried along
     CHECK(apart < 2e-3);
 }
 
-TEST_CASE("A body that swells by much in one step is followed in parts, or the step fails whole") {
+TEST_CASE("A body that swells by much in one step is followed in parts, or the whole step fails") {
     Breathing scene;
     for (int n = 0; n < 20; ++n) scene.step();
     std::vector<Vec3> swollen = breathing(scene.ball, 20 * dt);
@@ -184,7 +184,7 @@ TEST_CASE("A fold that is flat at first opens and holds cloth") {
     for (const Vec3& x : simulation.positions(cloth)) CHECK(x.y() > 0.0);
 }
 
-TEST_CASE("A step in parts that fails is taken back whole: the next is divided as before") {
+TEST_CASE("A step in parts that fails is undone as a whole: the next is divided as before") {
     Breathing scene(backends().back(), {.work_limit = 40});
     for (int n = 0; n < 20; ++n) scene.step();
     std::vector<Vec3> swollen = breathing(scene.ball, 20 * dt);
@@ -217,7 +217,7 @@ TEST_CASE("A shape on a pose, moved in turns by either") {
     CHECK(highest == Approx(0.225).margin(0.004));
 }
 
-TEST_CASE("Shapes that cannot be are refused by name") {
+TEST_CASE("Invalid shapes are refused by name") {
     Breathing scene;
     Simulation& simulation = scene.simulation;
     std::vector<Vec3> shape = scene.ball.vertices;
@@ -237,7 +237,7 @@ TEST_CASE("Shapes that cannot be are refused by name") {
     const std::string parted = error_of([&] { simulation.deform_obstacle(doubled, split.vertices); });
     CHECK(says(parted, "doubled"));
     CHECK(says(parted, "part by 0.1"));
-    CHECK(simulation.step().ok());  // all is as before
+    CHECK(simulation.step().ok());  // everything is as before
 }
 
 }  // namespace percale::test::deforming_body_test

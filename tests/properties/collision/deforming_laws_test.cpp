@@ -18,8 +18,8 @@ namespace percale::test::deforming_laws_test {
 namespace {
 
 constexpr double dt = 1.0 / 60.0, h = 0.005, g = 9.81, area_density = 0.2;
-/// m, by which sheets lie beside the lines of a plane's mesh, across and along: of vertices exactly above one of its edges
-/// rounding decides which triangle they meet, on rigid planes as well.
+/// m, offsets of sheets from the lines of a plane's mesh, across and along: for vertices exactly above one of its edges rounding
+/// decides which triangle they meet, on rigid planes as well.
 constexpr double aside = 0.0031, behind = 0.0017;
 
 Fabric fabric(double structural = 1000.0) {
@@ -171,7 +171,7 @@ TEST_CASE("A rippling plane carries a sheet: in each step contact and weight mak
     }
 }
 
-// v(t) = min(mu g t, u), whatever way the plane is told to move.
+// v(t) = min(mu g t, u), whether the plane moves by its pose or by its vertices.
 TEST_CASE("A plane whose vertices all move sideways carries cloth as one that is moved by its pose", "[law]") {
     constexpr double u = 0.6, mu = 0.2;
     for (const ContactResponse response : responses) {
@@ -199,9 +199,9 @@ TEST_CASE("A plane whose vertices all move sideways carries cloth as one that is
     }
 }
 
-// Where friction holds, each point of the sheet goes with the point below: x = x0 (1 + s t). Where it does not, the forces of the
-// two halves are opposite: no momentum, no strain.
-TEST_CASE("A plane that stretches takes soft cloth along and gives stiff cloth no momentum", "[law]") {
+// Where friction sticks, each point of the sheet moves with the point below: x = x0 (1 + s t). Where it does not, the forces of
+// the two halves are opposite: no momentum, no strain.
+TEST_CASE("A plane that stretches carries soft cloth along and gives stiff cloth no momentum", "[law]") {
     constexpr double s = 0.2;
     for (const bool soft : {true, false}) {
         for (const ContactResponse response : responses) {
@@ -232,8 +232,8 @@ TEST_CASE("A plane that stretches takes soft cloth along and gives stiff cloth n
     }
 }
 
-// A sheet that rests in the air is hit from below at v: it leaves at (1 + e) v; with friction mu and the plane going sideways
-// faster than that, the push mu m v gives it the speed mu v along.
+// A sheet that rests in the air is hit from below at v: it leaves at (1 + e) v; with friction mu and the plane moving sideways
+// faster than that, the impulse mu m v gives it the speed mu v along.
 TEST_CASE("A plane that is moved by its vertices hits cloth as one that is moved by its pose", "[law]") {
     constexpr double v = 1.0, mu = 0.25;
     const auto hit = [&](bool by_shape, ContactResponse response, double e, double sideways) {
@@ -255,7 +255,7 @@ TEST_CASE("A plane that is moved by its vertices hits cloth as one that is moved
         }
         const Vec3 rigid = hit(false, response, 0.0, 0.6), bent = hit(true, response, 0.0, 0.6);
         const std::string name = "hit at a slant, " + word(response);
-        // Penalty gives more: its pushes are longer than the impact, what they throw back is taken away without friction.
+        // Penalty gives more: its forces last longer than the impact, and the removal of the rebound has no friction.
         if (response == ContactResponse::projection) {
             check_law(name + ": speed along against mu v, of v", std::abs(bent.x() / v - mu), 0.02);
         }
@@ -263,13 +263,13 @@ TEST_CASE("A plane that is moved by its vertices hits cloth as one that is moved
     }
 }
 
-TEST_CASE("Cloth asleep on a deforming body wakes when its vertices move, and goes along") {
+TEST_CASE("Cloth asleep on a deforming body wakes when its vertices move, and is carried along") {
     for (const Vec3& way : {Vec3(0.08, 0.0, 0.0), Vec3(0.0, 0.08, 0.0)}) {
         Plate scene(true, {}, {.friction = 0.8, .name = "plate"}, 0.8 * h);
         StepReport report;
         for (int n = 0; n < 300 && !report.slept; ++n) report = step_well(scene.simulation);
         REQUIRE(report.slept);
-        scene.go_to(Vec3::Zero());  // where it is: no reason to wake
+        scene.go_to(Vec3::Zero());  // the present place: no reason to wake
         CHECK(step_well(scene.simulation).slept);
         const Vec3 start = mean(scene.simulation.positions(scene.cloth));
         for (int n = 1; n <= 60; ++n) {
@@ -284,7 +284,7 @@ TEST_CASE("Cloth asleep on a deforming body wakes when its vertices move, and go
 }
 
 TEST_CASE("A deforming body that keeps its shape is a rigid one for cloth on it") {
-    // Flat faces, divided: their inner edges make contacts on neither.
+    // Flat faces, divided: their inner edges make no contacts on either.
     TriangleMesh block = make_sphere(0.1, 3);
     for (Vec3& x : block.vertices) x *= 0.1 / x.cwiseAbs().maxCoeff();
     for (const TriangleMesh& mesh : {make_grid(0.6, 0.6, 13, 13), make_box({0.2, 0.2, 0.2}), block, make_sphere(0.1, 2)}) {
@@ -384,7 +384,7 @@ TEST_CASE("A ring that closes on a sleeve stops when there is no room, with a re
     }
 }
 
-TEST_CASE("Cloth that starts inside of a deforming ball is pushed out as out of a rigid one") {
+TEST_CASE("Cloth that starts inside a deforming ball is pushed out as out of a rigid one") {
     const TriangleMesh ball = make_sphere(0.2, 3), sheet = make_grid(0.3, 0.3, 13, 13);
     const auto start = [&](bool deforming, double size, StartRule rule) {
         Simulation simulation = simulation_on_meshes({.start = rule});
@@ -401,11 +401,11 @@ TEST_CASE("Cloth that starts inside of a deforming ball is pushed out as out of 
     CHECK(bent.start_repair()[0].largest_move == Approx(rigid.start_repair()[0].largest_move).margin(1e-12));
     CHECK(largest_distance(rigid.positions({0}), bent.positions({0})) < 1e-9);
     CHECK_THROWS_AS(start(true, 1.0, StartRule::refuse), StartError);
-    // It is where it was first until a step has been made.
+    // The ball keeps its first place until a step has been made.
     CHECK_THROWS_AS(start(true, 0.9, StartRule::refuse), StartError);
 }
 
-TEST_CASE("A refused start is good once the body has another shape, and cloth that is put into a new shape is pushed out") {
+TEST_CASE("A refused start is good once the body has another shape, and cloth placed into a new shape is pushed out") {
     const TriangleMesh ball = make_sphere(0.2, 3), sheet = make_grid(0.3, 0.3, 13, 13);
     const auto sized = [&](double size) { return mapped(ball, [&](const Vec3& x) { return size * x; }); };
     Simulation simulation = simulation_on_meshes({.start = StartRule::refuse});

@@ -14,8 +14,8 @@
 #include "tests/support/collision/backends.h"
 #include "tests/support/collision/shapes.h"
 
-// Scenes drawn at random: obstacles whose every vertex moves, in twists, bends, swells and waves, under one or two sheets. The
-// exact certificate of each step is the judge. PERCALE_DEFORMING_SCENES says how many (200), PERCALE_DEFORMING_FIRST the first.
+// Scenes drawn at random: obstacles whose vertices move one by one, in twists, bends, swells and waves, under one or two sheets.
+// The exact certificate checks each step. PERCALE_DEFORMING_SCENES is their number (200), PERCALE_DEFORMING_FIRST the first.
 namespace percale::test::deforming_scenes_test {
 namespace {
 
@@ -71,7 +71,7 @@ struct Mode {
     }
 };
 
-/// All of a scene that was drawn.
+/// Everything drawn for a scene.
 struct Drawn {
     std::string obstacle;
     TriangleMesh body;  // undeformed, before its pose
@@ -155,7 +155,8 @@ Fabric draw_fabric(Draws& draws) {
     return fabric;
 }
 
-/// A sheet of 8 x 8 to 15 x 15 vertices beside the body, above it as the body's pose has it, somewhat within reach or just out.
+/// A sheet of 8 x 8 to 15 x 15 vertices beside the body, above it in the axes of the body's pose, somewhat within contact or
+/// just out.
 void draw_sheet(Draws& draws, const Fabric& fabric, double& height, Drawn& drawn) {
     const int columns = 8 + draws.index(8), rows = std::clamp(columns + draws.index(5) - 2, 8, 15);
     const double width = draws.number(0.2, 0.4);
@@ -194,7 +195,7 @@ Drawn draw_scene(int index) {
     for (const Vec3& x : drawn.body.vertices) height = std::max(height, x.y());
     draw_sheet(draws, fabric, height, drawn);
     if (draws.chance(0.3)) draw_sheet(draws, fabric, height, drawn);
-    if (draws.chance(0.3)) {  // of a scaled body all else stays as it is
+    if (draws.chance(0.3)) {  // everything else of a scaled body stays
         const double scale = draws.decades(0.5, 2.0);
         drawn.pose.scale = scale;
         for (Vec3& x : drawn.body.vertices) x /= scale;
@@ -207,14 +208,14 @@ bool finite(std::span<const Vec3> places) {
     return std::ranges::all_of(places, [](const Vec3& x) { return x.allFinite(); });
 }
 
-/// What is to be found over all scenes.
+/// Results over all scenes.
 struct Tally {
     int scenes = 0, stopped = 0, stopped_free = 0, touched = 0, pressed = 0, steps = 0, divided = 0, bad = 0;
     double nearest = 1.0;  // of its thickness
     std::map<std::string, int> reasons;
 };
 
-/// A scene that was drawn, as it runs.
+/// A drawn scene as it runs.
 class Running {
 public:
     Running(const Drawn& drawn, const Backend& backend, Tally& tally)
@@ -262,7 +263,7 @@ private:
         check_state();
     }
 
-    /// After a step that failed the body may as well stay where it is: the cloth goes on from there, clear of it.
+    /// After a step that failed the body may stay where it is: the cloth continues from there, clear of it.
     void check_halt() {
         simulation_.deform_obstacle(
             body_, std::vector<Vec3>(simulation_.obstacle_shape(body_).begin(), simulation_.obstacle_shape(body_).end()));
@@ -273,7 +274,8 @@ private:
         check_state();
     }
 
-    /// Finite, no crossing with the body, none inside of it; cloth that meets cloth does not cross it either.
+    /// The state is finite, without crossings of the body or vertices inside it; cloth that meets cloth does not cross it
+    /// either.
     void check_state() {
         TriangleMesh body = drawn_.body, all;
         body.vertices = transform(simulation_.obstacle_pose(body_), simulation_.obstacle_shape(body_));
@@ -313,7 +315,7 @@ int number_from(const char* variable, int otherwise) {
 
 }  // namespace
 
-TEST_CASE("Random scenes with bodies that deform: nothing crosses, and what stops says why", "[law]") {
+TEST_CASE("Random scenes with bodies that deform: nothing crosses, and every stop has a reason", "[law]") {
     constexpr int steps = 12;
     const int first = number_from("PERCALE_DEFORMING_FIRST", 0), count = number_from("PERCALE_DEFORMING_SCENES", 200);
     const std::vector<Backend> trees = backends();

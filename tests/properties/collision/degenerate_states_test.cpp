@@ -1,4 +1,4 @@
-// States that no designer means and every user reaches. Each is simulated, finite and without gain of energy, or refused by name.
+// Degenerate states that users reach. Each is simulated, finite and without gain of energy, or refused by name.
 #include <cmath>
 
 #include "percale/detectors.h"
@@ -21,8 +21,8 @@ constexpr std::array contact_ways = {Way{"backward Euler, penalty", Scheme::back
                                      Way{"TR-BDF2", Scheme::tr_bdf2}};
 
 StepSettings settings_of(const Way& way) {
-    // What the solver leaves is energy, too: less of it than by default.
-    return {.scheme = way.scheme, .newton_share = 0.25, .contact_response = way.response, .measure = StepMeasures::ledger};
+    // The solver's residual is energy, too: it is smaller than by default.
+    return {.scheme = way.scheme, .newton_error_ratio = 0.25, .contact_response = way.response, .measure = StepMeasures::ledger};
 }
 
 Fabric woven_fabric() {
@@ -36,7 +36,7 @@ Fabric woven_fabric() {
 struct Outcome {
     int steps = 0;              // taken
     int rough = 0;              // of them not converged
-    double gain = 0.0;          // J, most that total energy rose in a step beyond the work done
+    double gain = 0.0;          // J, largest rise of total energy in a step beyond the work done
     double closure = 0.0;       // worst of the ledger
     double reach = 0.0;         // m, largest distance from the origin
     double nearest = infinity;  // m, smallest distance of a contact
@@ -51,7 +51,7 @@ void note_step(const StepReport& report, double before, Outcome& outcome) {
     outcome.nearest = std::min(outcome.nearest, report.smallest_distance);
 }
 
-/// Steps that must end well, in states that are numbers.
+/// Makes steps that must end well, in finite states.
 Outcome stepped(Simulation& simulation, int steps) {
     Outcome outcome;
     double before = simulation.energy().total();
@@ -84,7 +84,7 @@ struct Sheet {
         rest = copy(simulation.positions(cloth));
     }
 
-    /// Moves every vertex by a function of where it is.
+    /// Moves every vertex by a function of its position.
     template <class Change>
     void deform(Change change) {
         std::vector<Vec3> points = rest;
@@ -123,7 +123,7 @@ TriangleMesh sliver_strip(double aspect) {
 
 }  // namespace
 
-TEST_CASE("Springs of no length, coincident vertices, inverted and folded cloth move on, finite and without gain of energy") {
+TEST_CASE("Springs of no length, coincident vertices, inverted and folded cloth stay finite and without gain of energy") {
     for (const Way& way : free_ways) {
         for (const Fabric& fabric : {sheet_fabric(), woven_fabric()}) {
             for (const State& state : states) {
@@ -184,7 +184,7 @@ TEST_CASE("One triangle falls freely, hangs by a corner and comes to lie on a fl
     }
 }
 
-TEST_CASE("Cloth that is no cloth is refused by the call that adds it, by name and number") {
+TEST_CASE("A mesh that cannot be cloth is refused by the call that adds it, by name and number") {
     Simulation simulation({});
     const auto refusal = [&](const TriangleMesh& mesh) {
         return scene_error([&] { simulation.add_cloth(mesh, free_fabric(), {}, "rag"); });

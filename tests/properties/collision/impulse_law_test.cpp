@@ -9,7 +9,7 @@
 
 namespace percale::test::impulse_law_test {
 
-// What cloth gives obstacles in a step, against the momentum that it lost.
+// Impulses of cloth on obstacles in a step, against the momentum that it lost.
 
 namespace {
 
@@ -54,7 +54,7 @@ struct Falling {
 
     Vec3 impulse() const { return simulation.impulse_on(ball) + simulation.impulse_on(plane); }
 
-    /// What a vertex gained in the step, beside its weight, N s.
+    /// The momentum that a vertex gained in the step besides its weight, N s.
     Vec3 gain(const Momentum& before, std::size_t i) const {
         const Vec3 by_weight(0, -g / 60.0, 0);
         return simulation.masses(cloth)[i] * (simulation.velocities(cloth)[i] - before.velocities[i] - by_weight);
@@ -74,7 +74,7 @@ struct Falling {
 
 }  // namespace
 
-TEST_CASE("What obstacles were given in a step is what the cloth gained beside its weight, impacts included", "[law]") {
+TEST_CASE("The impulses on obstacles in a step are what the cloth gained besides its weight, impacts included", "[law]") {
     for (const StepSettings& settings : ways_of_contact) {
         for (const double restitution : {0.0, 0.6}) {
             Falling scene(settings, restitution);
@@ -85,7 +85,7 @@ TEST_CASE("What obstacles were given in a step is what the cloth gained beside i
                 REQUIRE(report.ok());
                 given += scene.impulse().norm();
                 worst = std::max(worst, (scene.gained(before) + scene.impulse()).norm());
-                // In backward Euler forces act where the step ends, so that those within the cloth turn nothing.
+                // In backward Euler forces act at the end of the step, so that internal forces have no moment.
                 if (settings.scheme != Scheme::backward_euler || report.halvings > 0) continue;
                 const Vec3 p(0.3, -0.2, 0.1);
                 const Vec3 turned =
@@ -101,7 +101,7 @@ TEST_CASE("What obstacles were given in a step is what the cloth gained beside i
     }
 }
 
-TEST_CASE("Impulses are of the whole step, whatever it is made of, and those of a step that fails are none", "[law]") {
+TEST_CASE("Impulses are of the whole step, however it is divided, and those of a failed step are zero", "[law]") {
     std::vector<StepSettings> ways = ways_of_contact;
     for (const StepSettings& way : ways_of_contact) {
         ways.push_back(way);
@@ -138,7 +138,8 @@ TEST_CASE("Impulses are of the whole step, whatever it is made of, and those of 
     }
 }
 
-TEST_CASE("Cloth that sleeps goes on giving its weight, by obstacles that come and go, and nothing changes by asking", "[law]") {
+TEST_CASE("Cloth that sleeps still gives its weight, by obstacles that are added and removed, and a request changes nothing",
+          "[law]") {
     const auto rest = [](bool keep) {
         Simulation simulation({}, backends().back().make_detector());
         const ClothId cloth = simulation.add_cloth(make_grid(0.2, 0.2, 5, 5), {}, {.translation = {0, 0.0045, 0}});

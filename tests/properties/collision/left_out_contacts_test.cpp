@@ -9,7 +9,7 @@
 #include "tests/support/stepped_scene.h"
 
 // Contact leaves out faces, edges and vertices of obstacles that cloth cannot reach (collision/README.md). Cloth is thrown at
-// bodies on which it could, were the reasons wrong.
+// bodies on which it would reach them if the reasons were wrong.
 namespace percale::test::left_out_contacts_test {
 namespace {
 
@@ -18,14 +18,14 @@ struct Body {
     TriangleMesh mesh;
 };
 
-/// One half in a plane: its inner edges are flat, those of the border are not.
+/// The mesh with one half in a plane: its inner edges are flat, those of the border are not.
 TriangleMesh half_flat(TriangleMesh sheet) {
     for (Vec3& x : sheet.vertices)
         if (x.x() < 0.0) x.y() = 0.0;
     return sheet;
 }
 
-/// Every second triangle twice or thrice, some turned over.
+/// The mesh with every second triangle twice or three times, some turned over.
 TriangleMesh repeated(TriangleMesh mesh, Random& random) {
     const std::vector<Triangle> once = mesh.triangles;
     for (const Triangle& t : once) {
@@ -90,7 +90,7 @@ SteppedScene throw_cloth(const Body& body, const StepSettings& settings, Random&
 
 }  // namespace
 
-TEST_CASE("nothing crosses bodies that go through themselves, touch themselves or face inwards", "[law]") {
+TEST_CASE("nothing crosses bodies that intersect themselves, touch themselves or face inwards", "[law]") {
     const ContactResponse response = GENERATE(ContactResponse::penalty, ContactResponse::projection);
     int touched = 0;
     const char* wanted = std::getenv("PERCALE_LEFT_OUT_SCENES");

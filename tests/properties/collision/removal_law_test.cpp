@@ -60,14 +60,14 @@ void check_removed_box(const StepSettings& settings, const Backend& backend) {
         REQUIRE(copy(had.positions({0})) == copy(never.positions({0})));
         REQUIRE(copy(had.velocities({0})) == copy(never.velocities({0})));
     }
-    CHECK(had.state_hash() == never.state_hash());  // numbers of obstacles count in it
+    CHECK(had.state_hash() == never.state_hash());  // it includes the numbers of obstacles
     CHECK(had.force_on({1}) == never.force_on({0}));
     CHECK(had.force_on({1}).norm() > 0.1);
 }
 
 }  // namespace
 
-TEST_CASE("A mesh that nothing touched, once removed, leaves the steps that would have been without it, in every bit", "[law]") {
+TEST_CASE("Removing a mesh that nothing touched leaves the steps of a scene without it, in every bit", "[law]") {
     for (const Backend& backend : backends()) {
         check_removed_box({}, backend);
         check_removed_box({.contact_response = ContactResponse::projection}, backend);
@@ -75,7 +75,7 @@ TEST_CASE("A mesh that nothing touched, once removed, leaves the steps that woul
     }
 }
 
-TEST_CASE("Cloth drops to the next thing below where a mesh, rigid or yielding, is removed under it", "[law]") {
+TEST_CASE("Cloth drops to the next body below where a mesh, rigid or compliant, is removed under it", "[law]") {
     for (const bool yields : {false, true}) {
         Simulation simulation({}, backends().back().make_detector());
         const ClothId cloth = simulation.add_cloth(make_grid(0.3, 0.3, 11, 11), fabric(), {.translation = {0, 0.22, 0}});
@@ -97,7 +97,7 @@ TEST_CASE("Cloth drops to the next thing below where a mesh, rigid or yielding, 
     }
 }
 
-TEST_CASE("Of three layers on a ball the middle one is removed: the upper comes to lie on the lower", "[law]") {
+TEST_CASE("After the middle one of three layers on a ball is removed, the upper comes to lie on the lower", "[law]") {
     Simulation simulation({}, backends().back().make_detector());
     const TriangleMesh sheet = make_grid(0.2, 0.2, 9, 9);
     std::vector<ClothId> layers;
@@ -113,7 +113,7 @@ TEST_CASE("Of three layers on a ball the middle one is removed: the upper comes 
     CHECK(simulation.meets(layers[0], layers[2]));
     CHECK_THROWS_AS(simulation.meets(layers[0], layers[1]), SceneError);
     run(simulation, 60);
-    double apart = 0.0, press = 0.0;  // in the mean: layers tremble
+    double apart = 0.0, press = 0.0;  // mean: layers tremble
     constexpr int steps = 240;
     for (int n = 0; n < steps; ++n) {
         run(simulation, 1);
@@ -128,7 +128,7 @@ TEST_CASE("Of three layers on a ball the middle one is removed: the upper comes 
     CHECK(press == Approx(2.0 * 0.2 * 0.04 * 9.81).epsilon(0.02));
 }
 
-TEST_CASE("Self-contact may be given to a cloth and taken away: layers part, or fall through each other", "[law]") {
+TEST_CASE("Self-contact may be switched on and off for a cloth: layers separate, or fall through each other", "[law]") {
     Simulation simulation({}, backends().back().make_detector());
     const TriangleMesh sheet = make_grid(0.2, 0.2, 9, 9);
     const ClothId lower = simulation.add_cloth(sheet, fabric(true), {.translation = {0, 0.006, 0}});
@@ -159,7 +159,7 @@ TEST_CASE("A cloth of another fabric on a ball steps as one that was built with 
     built.set_positions({0}, x);
     built.set_velocities({0}, v);
     changed.set_fabric({0}, heavy);
-    CHECK(changed.state_hash() != built.state_hash());  // grips
+    CHECK(changed.state_hash() != built.state_hash());  // stick anchors
     run(changed, 1);
     run(built, 1);
     double largest = 0.0;
@@ -171,10 +171,10 @@ TEST_CASE("A cloth of another fabric on a ball steps as one that was built with 
     CHECK(built.force_on({0}).y() == Approx(-0.6 * 0.09 * 9.81).epsilon(0.05));
 }
 
-TEST_CASE("A body is put back: cloth that was reset in contact falls as it did at first, in every bit", "[law]") {
+TEST_CASE("A reset cloth in contact falls as it did at first, in every bit", "[law]") {
     for (const Backend& backend : backends()) {
         const auto make = [&] {
-            // The automatic solver would go on with the one that contact has made it come to.
+            // The automatic solver would keep the choice that contact has caused.
             Simulation simulation({.linear_solver = LinearSolver::cg}, backend.make_detector());
             simulation.add_cloth(make_grid(0.3, 0.3, 11, 11), fabric(), {.translation = {0.02, 0.24, 0}});
             simulation.add_obstacle(make_sphere(0.2, 3), {}, {.friction = 0.4, .restitution = 0.3, .name = "ball"});

@@ -21,7 +21,7 @@ double speed_at_thickness(double height, double speed) {
     return std::sqrt(std::max(0.0, speed * speed + 2.0 * g * (height - h)));
 }
 
-/// A flat sheet falls onto a plane: at what speed it came and left.
+/// A flat sheet falls onto a plane: its speeds before and after the impact.
 Bounce bounce(StepSettings settings, double height, double restitution) {
     settings.measure = StepMeasures::ledger;
     Simulation simulation(settings, backends().back().make_detector());
@@ -80,14 +80,14 @@ TEST_CASE("Cloth that bounces comes to rest") {
     for (const Vec3& x : simulation.positions(cloth)) CHECK((x.y() > 0.5 * h && x.y() < 1.1 * h));
 }
 
-TEST_CASE("Cloth that is placed or pushed anew is in no impact any more") {
+TEST_CASE("Cloth that is placed or given a velocity is in no impact any more") {
     for (const bool placed : {false, true}) {
         Simulation simulation({.time_step = 1.0 / 960.0}, backends().back().make_detector());
         const ClothId cloth = simulation.add_cloth(make_grid(0.3, 0.3, 6, 6), {}, {.translation = {0.0, 0.006, 0.0}});
         simulation.add_obstacle(make_plane(1.0), {}, {.restitution = 1.0});
         simulation.set_velocities(cloth, std::vector<Vec3>(36, Vec3(0.0, -2.0, 0.0)));
         while (simulation.step().contacts == 0) REQUIRE(simulation.time() < 0.1);
-        REQUIRE(simulation.velocities(cloth)[0].y() < 0.0);  // on its way: it would be thrown back
+        REQUIRE(simulation.velocities(cloth)[0].y() < 0.0);  // on its way: the impact would throw it back
         const auto shown = simulation.positions(cloth);
         const std::vector<Vec3> places(shown.begin(), shown.end());
         if (placed) simulation.set_positions(cloth, places);
@@ -99,7 +99,7 @@ TEST_CASE("Cloth that is placed or pushed anew is in no impact any more") {
     }
 }
 
-TEST_CASE("An obstacle's restitution is a share") {
+TEST_CASE("An obstacle's restitution is between 0 and 1") {
     for (const double restitution : {-0.1, 1.1}) {
         Simulation simulation({}, backends().back().make_detector());
         CHECK_THROWS_AS(simulation.add_obstacle(make_plane(1.0), {}, {.restitution = restitution}), SceneError);

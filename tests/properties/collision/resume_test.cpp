@@ -7,7 +7,7 @@
 #include "tests/support/collision/shapes.h"
 #include "tests/support/resumable.h"
 
-// Runs with obstacles and cloth against cloth, saved on their way and resumed, on every tree.
+// Runs with obstacles and cloth against cloth, saved in the middle and resumed, on every tree.
 namespace percale::test::resume_test {
 namespace {
 
@@ -109,7 +109,7 @@ TEST_CASE("A state saved on one tree is resumed on another") {
     CHECK(first.state_hash() == second.state_hash());
 }
 
-TEST_CASE("Cloth that was moved out of an obstacle before the start says so where it is resumed") {
+TEST_CASE("Cloth that was moved out of an obstacle before the start reports so where it is resumed") {
     const auto make = [] {
         Simulation simulation({.measure = StepMeasures::all}, make_brute_force_detector());
         simulation.add_cloth(make_grid(0.3, 0.3, 6, 6), towel(), {.translation = {0, 0.03, 0}}, "sheet");

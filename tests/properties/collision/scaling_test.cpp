@@ -1,4 +1,4 @@
-// No absolute constant hides anywhere: a scene in other units of length, turned or renumbered moves the same, contact included.
+// There is no hidden absolute constant: a scene in other units of length, turned or renumbered moves the same, contact included.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -11,7 +11,7 @@
 namespace percale::test::scaling_test {
 namespace {
 
-/// What is varied; the scene itself is always a free mesh or grid over a ball, or hung from two vertices.
+/// The variations; the scene itself is always a free mesh or grid over a ball, or hung from two vertices.
 struct Variant {
     StepSettings settings = {};
     bool ball = true;
@@ -37,7 +37,7 @@ TriangleMesh renumbered(const TriangleMesh& mesh, const std::vector<int>& number
     return result;
 }
 
-/// The same cloth with lengths s times as large, masses s^2, times as they were: area densities stay, forces are s^3 times as
+/// The same cloth with lengths s times as large, masses s^2, times unchanged: area densities stay, forces are s^3 times as
 /// large, spring constants s^2.
 Fabric fabric_in(const Variant& variant) {
     const double s = variant.unit, square = s * s;
@@ -56,7 +56,8 @@ Fabric fabric_in(const Variant& variant) {
 TriangleMesh sheet_in(const Variant& variant) {
     TriangleMesh mesh = make_grid(0.4 * variant.unit, 0.4 * variant.unit, 9, 9);
     mesh.grid_columns = mesh.grid_rows = 0;
-    // No symmetry and nothing flat: what is as near to two features, and which way a sheet buckles, only rounding decides.
+    // Without symmetry and flat parts: otherwise rounding decides between two equally near features, and which way a sheet
+    // buckles.
     Random random(8);
     for (Vec3& x : mesh.vertices) x += variant.unit * (Vec3(0.0, 0.11, 0.0) + random.point(4e-3));
     return mesh;
@@ -106,7 +107,7 @@ struct Way {
     int steps;
 };
 
-/// With the settings that a user has: rules that stop early, lists, multigrid.
+/// With the default settings: rules that stop early, lists, multigrid.
 std::vector<Way> default_ways() {
     return {{"hanging, backward Euler", {.settings = {}, .ball = false}, 60},
             {"hanging, multigrid", {.settings = {.linear_solver = LinearSolver::multigrid}, .ball = false}, 30},
@@ -122,8 +123,8 @@ std::vector<Way> default_ways() {
             {"woven, on a ball", {.settings = {}, .self_contact = true, .bends = true}, 60}};
 }
 
-/// Solved as exactly as doubles allow. Multigrid coarsens in the order in which a free mesh lies in memory, which follows the
-/// axes. Another path of Newton finds other contacts on its way, which then stand until the step ends: it is no rounding.
+/// Solved as exactly as doubles allow. Multigrid coarsens in the memory order of a free mesh, which follows the axes. Another
+/// path of Newton finds other contacts, which then stay until the step ends: that is no rounding.
 StepSettings tight(Scheme scheme, ContactResponse response = ContactResponse::penalty) {
     return {.scheme = scheme,
             .newton_tolerance = 1e-11,
@@ -137,7 +138,7 @@ struct TightWay : Way {
 };
 
 /// In contact rounding grows tenfold in 0.1 s. Rounds of projected contact end when the multipliers are known to 2e-4 of the
-/// thickness; which round that is, rounding decides.
+/// thickness; rounding decides which round that is.
 std::vector<TightWay> tight_ways() {
     return {{{"hanging, backward Euler", {.settings = tight(Scheme::backward_euler), .ball = false}, 30}},
             {{"hanging, TR-BDF2", {.settings = tight(Scheme::tr_bdf2), .ball = false}, 30}},

@@ -35,12 +35,12 @@ struct Slope {
     }
 };
 
-/// A turn about the axis of gravity and a shift.
+/// A rotation about the axis of gravity and a translation.
 const Pose motion{.translation = Vec3(100.0, 2.0, -40.0), .rotation = {std::cos(0.7), 0.0, std::sin(0.7), 0.0}};
 
 }  // namespace
 
-TEST_CASE("After a teleport cloth goes on as if it had always been there") {
+TEST_CASE("After a teleport cloth continues as if it had always been there") {
     Slope stays, jumps;
     jumps.simulation.teleport(jumps.cloths, jumps.obstacles, motion);
     const auto difference = [&] {
@@ -60,11 +60,11 @@ TEST_CASE("After a teleport cloth goes on as if it had always been there") {
         REQUIRE(stays.simulation.step().ok());
         REQUIRE(jumps.simulation.step().ok());
     }
-    CHECK(difference() < 1e-4);  // the solver's accuracy; without its grips, or with its velocities as they were, 1e-2
+    CHECK(difference() < 1e-4);  // the solver's accuracy; without its stick anchors, or with its old velocities, 1e-2
     CHECK(stays.simulation.largest_speed() > 0.02);
 }
 
-TEST_CASE("A teleport clears velocities where that is wanted, and turns them where not") {
+TEST_CASE("A teleport clears velocities on request, and turns them otherwise") {
     Slope scene;
     const std::vector<Vec3> before = copy(scene.simulation.velocities(scene.cloth));
     scene.simulation.teleport(scene.cloths, scene.obstacles, motion);

@@ -13,7 +13,7 @@ namespace percale::test::time_limit_test {
 
 namespace {
 
-/// A sheet that falls on a ball, which moves aside, solved far more exactly than a step deserves.
+/// A sheet that falls on a ball, which moves aside, solved far more exactly than needed.
 struct Falling {
     Simulation simulation;
     TriangleMesh sheet = make_grid(0.4, 0.4, 9, 9), body = make_sphere(0.12, 2);
@@ -61,7 +61,7 @@ struct Falling {
 
 }  // namespace
 
-TEST_CASE("A step whose time is up is taken as it is: it arrives, crosses nothing, stays sane and says so", "[slow]") {
+TEST_CASE("A step whose time is up is accepted as it is: it arrives, crosses nothing, stays finite and reports so", "[slow]") {
     std::vector<StepSettings> ways(4);
     ways[1].contact_response = ContactResponse::projection;
     ways[2].scheme = Scheme::tr_bdf2;
@@ -83,7 +83,7 @@ TEST_CASE("A step whose time is up is taken as it is: it arrives, crosses nothin
     }
 }
 
-TEST_CASE("A step whose time is up long before an obstacle has arrived fails and moves nothing, and a teleport leads on") {
+TEST_CASE("A step whose time is up long before an obstacle has arrived fails and moves nothing, and a teleport succeeds") {
     const auto jump = [](double limit) {
         Falling scene({});
         for (int n = 0; n < 30; ++n) scene.step();
@@ -114,7 +114,7 @@ TEST_CASE("A step whose time is up long before an obstacle has arrived fails and
     CHECK(free > 2 * limited);
 }
 
-TEST_CASE("Explicit steps do not look at the time limit") {
+TEST_CASE("Explicit steps ignore the time limit") {
     const auto hanging = [](bool adaptive, double limit) {
         Simulation simulation({.adaptive = adaptive, .scheme = Scheme::rk4});
         const ClothId cloth = simulation.add_cloth(make_grid(0.5, 0.5, 7, 7), {});
@@ -126,7 +126,7 @@ TEST_CASE("Explicit steps do not look at the time limit") {
     for (const bool adaptive : {false, true}) CHECK(hanging(adaptive, 1e-6) == hanging(adaptive, 0.0));
 }
 
-TEST_CASE("A time limit that is not reached, or was taken back, changes no bit") {
+TEST_CASE("A time limit that is not reached, or was removed, changes no bit") {
     Falling none({}), ample({}), taken_back({});
     ample.simulation.set_time_limit(1e3);
     taken_back.simulation.set_time_limit(1e-6);

@@ -1,5 +1,5 @@
-// No decision of contact follows the axes or the numbers of triangles: a scene that is turned as a whole, or numbered otherwise,
-// leaves the plain one no faster than one that rounding disturbs.
+// No decision of contact depends on the axes or the numbers of triangles: a scene that is turned as a whole, or renumbered,
+// departs from the plain one no faster than one that rounding disturbs.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -17,11 +17,11 @@ namespace {
 using Matrix = Eigen::Matrix3d;
 
 constexpr double size = 0.5;         // m, of the sheet, to which differences are relative
-constexpr int steps_in_contact = 2;  // looked at after the one in which the sheet meets the body
+constexpr int steps_in_contact = 2;  // compared after the one in which the sheet meets the body
 
-/// Turning disturbs all positions in every step, the others are disturbed at the start alone; with an owner of edges that follows
+/// Turning disturbs all positions in every step, the others are disturbed at the start only; if the owner of edges depends on
 /// the axes these ratios are 2e4 to 5e5.
-constexpr double most_growth = 300.0;
+constexpr double max_growth = 300.0;
 
 struct Scene {
     const char* name;
@@ -46,7 +46,7 @@ Matrix exact_turn(const Vec3& axis, double degrees) {
     return turn;
 }
 
-/// The sheet is tilted and no cell is like another: what is as near to two features, only rounding decides.
+/// The sheet is tilted and no cell is like another: otherwise rounding decides between two equally near features.
 TriangleMesh sheet_above(double height) {
     TriangleMesh sheet = make_grid(size, size, 17, 17);
     Random random(8);
@@ -94,13 +94,13 @@ Path path_of(const Scene& scene, const Variant& variant, StepSettings settings) 
     return path;
 }
 
-/// How far a path leads from the plain one, relative to the sheet.
+/// Distance of a path from the plain one, relative to the sheet.
 double apart_before(const Path& a, const Path& b) { return largest_difference(a.before, b.before) / size; }
 double apart_after(const Path& a, const Path& b) { return largest_difference(a.after, b.after) / size; }
 
 }  // namespace
 
-TEST_CASE("Turned or numbered otherwise a scene leaves the plain one no faster in contact than rounding makes it", "[law]") {
+TEST_CASE("A turned or renumbered scene departs from the plain one in contact no faster than by rounding", "[law]") {
     const auto response = GENERATE(ContactResponse::penalty, ContactResponse::projection);
     const StepSettings settings{.contact_response = response};
     const std::string ending = response == ContactResponse::penalty ? ", penalty: " : ", projection: ";
@@ -130,9 +130,9 @@ TEST_CASE("Turned or numbered otherwise a scene leaves the plain one no faster i
         }
         const std::string on = std::string("scene turned, grid on a ") + scene.name + ending;
         check_law(on + "relative difference before it meets the body", before, 1e-12);
-        check_law(on + "difference over that of disturbed scenes, quarter and half turns", exact / disturbed, most_growth);
-        check_law(on + "difference over that of disturbed scenes, other turns", general / disturbed, most_growth);
-        check_law(on + "difference over that of disturbed scenes, triangles renumbered", numbered / disturbed, most_growth);
+        check_law(on + "difference over that of disturbed scenes, quarter and half turns", exact / disturbed, max_growth);
+        check_law(on + "difference over that of disturbed scenes, other turns", general / disturbed, max_growth);
+        check_law(on + "difference over that of disturbed scenes, triangles renumbered", numbered / disturbed, max_growth);
     }
 }
 

@@ -63,7 +63,7 @@ void check_near(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
-TEST_CASE("What is played begins when it is told to, where it is told to, and its last shape stays") {
+TEST_CASE("What is played begins at the time and at the shape that the scene says, and its last shape stays") {
     Rolling rolling;
     check_near(rolling.places({0.0, 0.15, 0.3, 2.0}), {0.0, 0.15, 0.3, 0.3});
     rolling.obstacle.play_from = 1.0;

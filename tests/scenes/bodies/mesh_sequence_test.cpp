@@ -149,7 +149,7 @@ TEST_CASE("A run that meets a bad frame fails there, with what it has, and rest 
     CHECK(result.totals.simulated_s > 0.35);
     CHECK(written > 5);
     CHECK(message_of([&] {
-              build_scene(frames.scene({{"duration", "rest"}, {"longest", "0.5"}}));
+              build_scene(frames.scene({{"duration", "rest"}, {"max_duration", "0.5"}}));
           }).find("what it plays goes on until 0.8 s") != std::string::npos);
 }
 

@@ -25,7 +25,7 @@ TEST_CASE("a folder has one lock at a time, which leaves nothing behind") {
     std::filesystem::remove(folder.path("file"));
     CHECK(message_of([&] { FolderLock second(folder.path()); }).empty());
     CHECK(folder.file_count() == 0);
-    CHECK(message_of([&] { FolderLock none(folder.path("none")); }).empty());  // whoever makes it tells why it cannot be
+    CHECK(message_of([&] { FolderLock none(folder.path("none")); }).empty());  // whoever makes the folder says why it cannot be
 }
 
 TEST_CASE("a process that is killed leaves no lock") {

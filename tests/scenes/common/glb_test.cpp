@@ -18,9 +18,9 @@ TEST_CASE("a GLB file begins with its header and the JSON chunk, padded to four 
     CHECK(start.substr(32) == std::string("BIN\0", 4));
 }
 
-TEST_CASE("what a header of 32 bits cannot tell of is refused") {
-    CHECK_NOTHROW(glb_start("{}", most_glb_bytes - 35));
-    CHECK_THROWS_AS(glb_start("{}", most_glb_bytes - 27), SceneError);
+TEST_CASE("what a header of 32 bits cannot state is refused") {
+    CHECK_NOTHROW(glb_start("{}", max_glb_bytes - 35));
+    CHECK_THROWS_AS(glb_start("{}", max_glb_bytes - 27), SceneError);
 }
 
 }  // namespace percale::scenes::test::glb_test

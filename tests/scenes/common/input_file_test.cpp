@@ -22,7 +22,7 @@ TEST_CASE("a file is read as bytes and as a text, whatever they are; a mark of U
     CHECK(read_text(folder.write("empty", "")).empty());
 }
 
-TEST_CASE("text in wide characters is told of") {
+TEST_CASE("text in wide characters is refused by name") {
     const TestFolder folder;
     for (const std::string& mark :
          {std::string("\xFF\xFE"), std::string("\xFE\xFF"), std::string("\0\0\xFE\xFF", 4), std::string("\xFF\xFE\0\0", 4)}) {

@@ -34,7 +34,7 @@ TEST_CASE("number texts read back as the same number") {
     }
 }
 
-TEST_CASE("shares are told in per cent, however large") {
+TEST_CASE("fractions are written in per cent, however large") {
     CHECK(percent_text(0.0123) == "1.2 %");
     CHECK(percent_text(-0.5) == "-50 %");
     CHECK(percent_text(123.4) == "12340 %");
@@ -42,7 +42,7 @@ TEST_CASE("shares are told in per cent, however large") {
     CHECK(percent_text(std::numeric_limits<double>::infinity()) == "inf %");
 }
 
-TEST_CASE("a distance is told in metres, an infinite one in words") {
+TEST_CASE("a distance is written in metres, an infinite one in words") {
     CHECK(nearness_text(0.00321) == "smallest distance 0.00321 m");
     CHECK(nearness_text(0.0) == "smallest distance 0 m");
     CHECK(nearness_text(std::numeric_limits<double>::infinity()) == "never near");
@@ -69,7 +69,7 @@ TEST_CASE("short numbers have three digits, and one of a thing has no s") {
     CHECK(counted(12, "step") == "12 steps");
 }
 
-TEST_CASE("a number with a decimal comma or a unit is told how it is written") {
+TEST_CASE("advice on a number with a decimal comma or a unit says how it is written") {
     CHECK(number_advice("0,005") == "; decimals take a point: 0.005");
     CHECK(number_advice(" -1,5 ") == "; decimals take a point: -1.5");
     CHECK(number_advice("5mm") == "; a number is written without its unit, in m: 0.005");

@@ -47,7 +47,7 @@ TEST_CASE("a file that cannot be written is named with the reason") {
     CHECK_THROWS_WITH(WholeFile(folder.path("absent/a.txt")), Catch::Contains("absent/a.txt") && Catch::Contains("No such file"));
 }
 
-TEST_CASE("what could not be written is told while writing, not only at the end") {
+TEST_CASE("what could not be written is reported while writing, not only at the end") {
     if (!std::filesystem::exists("/dev/full")) return;
     const TestFolder folder;
     std::filesystem::create_symlink("/dev/full", folder.path("a.txt.part"));

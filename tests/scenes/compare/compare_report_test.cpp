@@ -50,7 +50,7 @@ TEST_CASE("The cheapest run for an error is certain to keep it") {
     CHECK(cheapest_within(comparison, 1e-6) == nullptr);
 }
 
-TEST_CASE("Advice names a run for every decade once, and none below what the reference can tell") {
+TEST_CASE("Advice names a run for every decade once, and none below what the reference can resolve") {
     const std::vector<std::string> sentences = advice(small_comparison());
     REQUIRE(sentences.size() == 3);
     CHECK(sentences[0] == "for an error of 1e-1 m use backward_euler at 1/60 s (0.1 CPU s)");
@@ -62,7 +62,7 @@ TEST_CASE("Advice names a run for every decade once, and none below what the ref
     CHECK(advice(none)[0].find("no run") == 0);
 }
 
-TEST_CASE("The table has its columns under each other, and says where the reference can tell nothing") {
+TEST_CASE("The table has its columns under each other, and says where the reference resolves nothing") {
     const std::vector<std::string> lines = lines_of(comparison_table(small_comparison()));
     REQUIRE(lines.size() == 6);
     const std::size_t status = lines[0].find("status");

@@ -59,7 +59,7 @@ TEST_CASE("A disturbance moves every free vertex by its length and no held one, 
     CHECK(sum.norm() < 0.8 * 12.0 * 1e-4);  // not all the same way
 }
 
-TEST_CASE("A run that blows up, one that is refused and one that is stopped are told apart") {
+TEST_CASE("A run that blows up, one that is refused and one that is stopped are distinguished") {
     const std::string stiff = with(held_sheet(), "structural = 1.0", "structural = 1e6");
     const VariantRun high =
         run_variant(source_of(with(stiff, "duration = 0.1", "duration = 5.0")), {"rk4", 0.05, 0.0}, never_stop, 1e-6);

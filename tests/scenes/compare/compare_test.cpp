@@ -82,15 +82,15 @@ TEST_CASE("A comparison ends when a stop is asked for") {
     CHECK_THROWS_AS(compare_scene(source_of(falling_sheet()), {}, hooks), ComparisonStopped);
 }
 
-TEST_CASE("The reference is told when it is made, before any run") {
+TEST_CASE("The reference is reported when it is made, before any run") {
     CompareHooks hooks;
-    int told = 0;
+    int reported = 0;
     hooks.reference_made = [&](const Reference& reference) {
-        ++told;
+        ++reported;
         CHECK(reference.state.positions.size() == 16);
     };
     compare_scene(source_of(falling_sheet()), {.schemes = {"rk4"}, .steps = {0.01}, .repeats = 1}, hooks);
-    CHECK(told == 1);
+    CHECK(reported == 1);
 }
 
 }  // namespace percale::scenes::compare_test

@@ -170,7 +170,7 @@ TEST_CASE("rims that lie side by side were likely meant to be joined, unless a s
     CHECK(find(of_cloth(both(free_sheet(), shifted(free_sheet(), {0.61, 0, 0}))), "near_rims") == nullptr);
 }
 
-TEST_CASE("corners that differ by rounding are told with the weld that joins them") {
+TEST_CASE("corners that differ by rounding are reported with the weld that joins them") {
     for (unsigned seed = 0; seed < 10; ++seed) {
         percale::test::Random random(seed);
         const TriangleMesh ball = make_sphere(random.decades(0.05, 1.0), 2);
@@ -235,7 +235,7 @@ TEST_CASE("meshes that look like another unit, and such far from the origin, are
     CHECK(std::any_of(beyond.begin(), beyond.end(), [](const Finding& one) { return one.severity == Severity::error; }));
 }
 
-TEST_CASE("an obstacle without an inside is told why") {
+TEST_CASE("for an obstacle without an inside the reason is reported") {
     const auto open = of_obstacle(open_ball());
     REQUIRE(open.size() == 1);
     CHECK(open[0].kind == "open_edges");

@@ -67,7 +67,7 @@ TEST_CASE("what a scene is refused for is an error at its place, with a fix") {
     CHECK(severity(examined(quiet_scene(), {{"step.scheme", "rk4"}}), "refused") == "error");
 }
 
-TEST_CASE("every fault of a scene file is told, not only the first") {
+TEST_CASE("every fault of a scene file is reported, not only the first") {
     const auto keys = examined(quiet_scene() + "frames = \"obi\"\n[expect]\nlargest_strain = true\n[setp]\n");
     REQUIRE(keys.size() == 4);
     CHECK(keys[0].what.find("obj") != std::string::npos);
@@ -114,7 +114,7 @@ mesh = "crowded.obj"
     CHECK(find(examined(quiet_scene()), "not_built") == nullptr);
 }
 
-TEST_CASE("pieces of a cloth are told of only where no seam joins them") {
+TEST_CASE("pieces of a cloth are reported only where no seam joins them") {
     const TestFolder folder;
     folder.write("two.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 3 0 0\nv 4 0 0\nv 3 0 1\nf 1 2 3\nf 4 5 6\n");
     const auto found_with = [&](const std::string& more) {
@@ -158,7 +158,7 @@ TEST_CASE("schemes that grow, ring or stop too early are warned of with what men
     CHECK(severity(with({implicit, fine}), "scheme") == "none");
 }
 
-TEST_CASE("cloth that starts inside an obstacle is told, by how far it is moved or that it is refused") {
+TEST_CASE("cloth that starts inside an obstacle is reported, by how far it is moved or that it is refused") {
     std::string inside = quiet_scene();
     inside.replace(inside.find("0.015"), 5, "-0.02");
     CHECK(severity(examined(inside), "start_moved") == "warning");
@@ -171,7 +171,7 @@ TEST_CASE("cloth that starts inside an obstacle is told, by how far it is moved 
     CHECK(severity(examined(inside, {{"cloth.sheet.pin", "[0]"}}), "start") == "error");
 }
 
-TEST_CASE("cloths with self_contact that start through each other are told of, or an error at the cloth where that is refused") {
+TEST_CASE("cloths with self_contact that start through each other are reported, or an error at the cloth where that is refused") {
     const std::string two = R"(
 [fabric.sheet]
 self_contact = true
@@ -259,7 +259,7 @@ TEST_CASE("fabrics that no cloth is made of are noted") {
     CHECK(severity(examined(quiet_scene()), "unused_fabric") == "none");
 }
 
-TEST_CASE("obstacles that move fast are told with the parts of a step, and so slow ones are not") {
+TEST_CASE("obstacles that move fast are reported with the parts of a step, slow ones are not") {
     std::string moving = quiet_scene();
     moving.insert(moving.find("[output]"), lift);
     const auto found = examined(moving);
@@ -271,7 +271,7 @@ TEST_CASE("obstacles that move fast are told with the parts of a step, and so sl
     CHECK(find(examined(quiet_scene(), spin), "fast_obstacle")->what.find("up to 20 parts") != std::string::npos);
 }
 
-TEST_CASE("bodies that bend are looked at in every frame: a bad one is an error, a jump is told with its parts") {
+TEST_CASE("bodies that bend are looked at in every frame: a bad one is an error, a jump is reported with its parts") {
     const TestFolder folder;
     const TriangleMesh ball = make_sphere(0.2, 2);
     const auto write = [&](int frame, double height) {
@@ -334,7 +334,7 @@ TEST_CASE("pins in the world are a note where a body goes far away, pins on it a
     CHECK(severity(examined(unpinned, {{pins, "[0]"}}), "pins_stay") == "none");
 }
 
-TEST_CASE("meshes that look swapped are told of once") {
+TEST_CASE("meshes that look swapped are reported once") {
     const TestFolder folder;
     const TriangleMesh sheet = free_sheet(), ball = shifted(make_sphere(0.2, 2), {0, 0.5, 0});
     write_obj(folder.path("sheet.obj"), sheet.vertices, sheet.triangles);
@@ -343,8 +343,10 @@ TEST_CASE("meshes that look swapped are told of once") {
         "[fabric.f]\nsprings.structural = 100.0\n[[cloth]]\nname = \"a\"\nfabric = \"f\"\nmesh = \"ball.obj\"\n"
         "[[obstacle]]\nname = \"b\"\nmesh = \"sheet.obj\"\n";
     const auto found = examine_scene_file(folder.write("scene.toml", text), {});
-    const auto told = [](const Finding& finding) { return finding.what.find("were their meshes swapped?") != std::string::npos; };
-    CHECK(std::count_if(found.begin(), found.end(), told) == 1);
+    const auto reported = [](const Finding& finding) {
+        return finding.what.find("were their meshes swapped?") != std::string::npos;
+    };
+    CHECK(std::count_if(found.begin(), found.end(), reported) == 1);
 }
 
 }  // namespace percale::scenes::test::doctor_scene_test

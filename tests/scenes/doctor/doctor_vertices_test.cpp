@@ -43,7 +43,7 @@ TEST_CASE("vertices that no cloth has are found in every pin and every event") {
     CHECK(found[0].what == "pin: vertices of cloth 'flag': vertices 9, 12 are out of range; allowed: 0 ... 8");
     CHECK(found[1].place.find("scene.toml:14:") != std::string::npos);
     CHECK(found[1].what == "event: vertices of cloth 'towel': vertex 4 is out of range; allowed: 0 ... 3");
-    // A box that holds no vertex is told of, too.
+    // A box that holds no vertex is reported, too.
     Scene boxed = scene;
     boxed.cloths[1].pin = VertexBox{.lowest = Vec3(1.5, 0.0, 1.5), .highest = Vec3(1.9, 1.0, 1.9)};
     const std::vector<ClothMesh> again = {{&boxed.cloths[0], &flag}, {&boxed.cloths[1], &towel}};

@@ -21,7 +21,7 @@ TEST_CASE("an error about the file itself does not say it twice") {
     CHECK(finding.what == "no vertices");
 }
 
-TEST_CASE("an error that is not inside the file is told of the whole file") {
+TEST_CASE("an error that is not inside the file is reported of the whole file") {
     const SceneFileError elsewhere({.file = "b.toml", .line = 3, .column = 5}, "other");
     const SceneError plain("no such thing"), named("flag", "torn");
     for (const SceneError* error : {static_cast<const SceneError*>(&elsewhere), &plain, &named}) {

@@ -80,14 +80,14 @@ TEST_CASE("what is said is not guessed, and garments grow by the scale") {
 TEST_CASE("a garment that is closed and a body that is not were likely swapped") {
     const TestFolder folder;
     DrapeOptions options = write_files(folder, [](const Vec3& x) { return x; });
-    const auto told = [&] {
+    const auto reported = [&] {
         const std::vector<std::string> notes = drape_scene(options).notes;
         return std::ranges::any_of(notes,
                                    [](const std::string& note) { return note.find("were their meshes swapped?") != note.npos; });
     };
-    CHECK_FALSE(told());
+    CHECK_FALSE(reported());
     std::swap(options.files[0], options.files[1]);
-    CHECK(told());
+    CHECK(reported());
 }
 
 TEST_CASE("a garment of pieces that nothing joins is known, and said how to mend") {
@@ -138,7 +138,7 @@ TEST_CASE("units are guessed so that things are 0.1 to some 10 m large") {
     CHECK_FALSE(stands_along_z({1.2, 0.01, 1.2}));  // a sheet that lies
 }
 
-TEST_CASE("what doctor warns of is told, and options that are wrong are refused") {
+TEST_CASE("what doctor warns of is noted, and options that are wrong are refused") {
     const TestFolder folder;
     DrapeOptions options = write_files(folder, [](const Vec3& x) { return x; });
     options.fabric.thickness = 0.5;

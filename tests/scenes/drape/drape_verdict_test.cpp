@@ -25,12 +25,12 @@ DrapeOptions ring_around_post(const TestFolder& folder, double half_width) {
     return options;
 }
 
-bool tells_of_sliding(const DrapeVerdict& verdict) {
+bool reports_sliding(const DrapeVerdict& verdict) {
     return std::ranges::any_of(verdict.lines,
                                [](const std::string& line) { return line.find("slid down by ") != std::string::npos; });
 }
 
-bool tells_of_tightness(const DrapeVerdict& verdict) {
+bool reports_tightness(const DrapeVerdict& verdict) {
     return std::ranges::any_of(verdict.lines,
                                [](const std::string& line) { return line.find("may be too small") != std::string::npos; });
 }
@@ -51,14 +51,14 @@ TEST_CASE("a garment that is stretched by a quarter and more is said to be tight
         built.simulation.set_positions(built.cloths[0], x);
         return verdict_of(built, options, drape, {});
     };
-    CHECK_FALSE(tells_of_tightness(verdict(0.2)));
-    CHECK(tells_of_tightness(verdict(0.3)));
+    CHECK_FALSE(reports_tightness(verdict(0.2)));
+    CHECK(reports_tightness(verdict(0.3)));
     const DrapeVerdict torn = verdict(1.5);
-    CHECK_FALSE(tells_of_tightness(torn));
+    CHECK_FALSE(reports_tightness(torn));
     CHECK(torn.lines[1].find("torn") != std::string::npos);
 }
 
-TEST_CASE("a garment that slides down is told of, one that holds is not") {
+TEST_CASE("a garment that slides down is reported, one that holds is not") {
     const TestFolder folder;
     for (const double half_width : {14.0, 9.0}) {
         const DrapeOptions options = ring_around_post(folder, half_width);
@@ -66,7 +66,7 @@ TEST_CASE("a garment that slides down is told of, one that holds is not") {
         const Drape drape = settle(built, options, [](double) { return false; });
         const DrapeVerdict verdict = verdict_of(built, options, drape, write_draped(built, options, false));
         CAPTURE(half_width, verdict.lines, verdict.wrong);
-        CHECK(tells_of_sliding(verdict) == (half_width > 10.0));
+        CHECK(reports_sliding(verdict) == (half_width > 10.0));
         CHECK(widest_gap(built).stitches > 0);
     }
 }

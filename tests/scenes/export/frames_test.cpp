@@ -113,7 +113,7 @@ TEST_CASE("a folder that cannot be made is named") {
     CHECK_THROWS_WITH(writer.write(frame), Catch::Contains("out/frames"));
 }
 
-TEST_CASE("frames of a scene are told from other files by name and number, whole or not") {
+TEST_CASE("frames of a scene are distinguished from other files by name and number, whole or not") {
     const TestFolder folder;
     std::filesystem::create_directories(folder.path("frames"));
     std::filesystem::create_directories(folder.path("obstacles"));

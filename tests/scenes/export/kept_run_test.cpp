@@ -38,7 +38,7 @@ RunResult run(KeptRun& kept, const Scene& scene, const std::function<bool()>& st
     return kept.run(built, stops, scene.expectations);
 }
 
-/// As one that is interrupted in its fourth step leaves the folder.
+/// Leaves the folder as a run that is interrupted in its fourth step does.
 void begin_run(const std::string& into, const Scene& scene) {
     KeptRun kept(into, scene, {}, "1");
     int steps = 0;
@@ -116,7 +116,7 @@ TEST_CASE("an origin changes with every part of an expectation") {
     CHECK(changed_origin(run_origin(none, {}, "1"), before) == changed);
 }
 
-TEST_CASE("a file that cannot be looked at is told by its name") {
+TEST_CASE("a file that cannot be looked at is named") {
     const TestFolder folder;
     Scene scene = scene_in(folder);
     scene.obstacles.at(0).mesh = std::string(300, 'a').append(".obj");
@@ -125,7 +125,7 @@ TEST_CASE("a file that cannot be looked at is told by its name") {
     CHECK_THROWS_AS(KeptRun(folder.path(std::string(300, 'b')), plain_scene(folder), {}, "1"), SceneError);
 }
 
-TEST_CASE("a report tells how a run ended, or that it did not") {
+TEST_CASE("a report says how a run ended, or that it did not") {
     const TestFolder folder;
     CHECK_FALSE(ended_run(folder.path()).has_value());
     folder.write("report.json", "{\"status\": \"stopped\", \"steps\": 3}");
@@ -185,7 +185,7 @@ TEST_CASE("a run that was stopped goes on where it stopped, and ends with the sa
     CHECK(KeptRun(into, scene, {}, "1").ended().has_value());
 }
 
-TEST_CASE("a checkpoint that is damaged is told, and the run begins anew") {
+TEST_CASE("a checkpoint that is damaged is reported, and the run begins anew") {
     const TestFolder folder;
     const Scene scene = plain_scene(folder);
     const std::string into = folder.path("kept");
@@ -245,15 +245,15 @@ TEST_CASE("a report with other expectations than the scene is not taken for its 
     folder.write("kept/report.json", "{\"status\": \"finished\", \"frames\": []}");
     KeptRun second(into, scene, {}, "1");
     CHECK_FALSE(second.ended().has_value());
-    CHECK(second.why_again() == "report.json tells of other expectations");
+    CHECK(second.why_again() == "report.json has other expectations");
     CHECK(run(second, scene).status == RunStatus::finished);
     CHECK(KeptRun(into, scene, {}, "1").ended().has_value());
 }
 
 TEST_CASE("a checkpoint that cannot be removed does not undo a run that has ended") {
     const TestFolder folder;
-    // At rest long before the first checkpoint is due.
-    const std::vector<Override> until_rest = {{"duration", "rest"}, {"longest", "600"}};
+    // The cloth is at rest long before the first checkpoint is due.
+    const std::vector<Override> until_rest = {{"duration", "rest"}, {"max_duration", "600"}};
     const Scene scene = load_scene(folder.write("box.toml", sheet_on_box()), until_rest);
     const std::string into = folder.path("kept");
     KeptRun kept(into, scene, {}, "1");
@@ -267,7 +267,7 @@ TEST_CASE("a checkpoint that cannot be removed does not undo a run that has ende
     CHECK(KeptRun(into, scene, {}, "1").ended().has_value());
 }
 
-TEST_CASE("a program is told by its version and the checksum of its files") {
+TEST_CASE("a program is identified by its version and the checksum of its files") {
     const std::string first = program_checksum();
     CHECK(first.starts_with(PERCALE_VERSION " "));
     CHECK(first.size() == std::string(PERCALE_VERSION).size() + 17);

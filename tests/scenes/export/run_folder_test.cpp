@@ -246,7 +246,7 @@ TEST_CASE("a run with one file for all frames that is gone on with ends with the
         CHECK(folder.read(name + "/" + tally_file) == folder.read(std::string("plain/") + tally_file));
         CHECK(folder.read(name + "/steps.csv") == folder.read("plain/steps.csv"));
         CHECK(folder.holds(std::string("left/") + tally_file + ".part") == (name == "new"));
-        // Of a run that was finished since the checkpoint, too.
+        // The same holds for a run that was finished since the checkpoint.
         run_tally(folder.path("again"), nullptr, &left, folder.path(name));
         CHECK(folder.read(std::string("again/") + tally_file) == folder.read(std::string("plain/") + tally_file));
     }

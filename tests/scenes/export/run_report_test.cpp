@@ -262,7 +262,7 @@ TEST_CASE("expectations are listed with measure, value, limit and outcome") {
 }
 
 TEST_CASE("what a scene does not need is listed as skipped, what it needs is not") {
-    const std::string contact = "contact detection, rows, cuts and predicted positions";
+    const std::string contact = "contact detection, contact constraints, clamps and predicted positions";
     BuiltScene plain = built(sheet_on_box());
     const ordered_json report = report_of(plain, run_scene(plain));
     CHECK_FALSE(skips(report, contact));

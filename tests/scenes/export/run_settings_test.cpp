@@ -128,7 +128,7 @@ TEST_CASE("every kind of shape is listed by its name with its sizes") {
     CHECK(shape(PlaneShape{4.0}).at("plane").at("half_size") == 4.0);
 }
 
-TEST_CASE("what differs between two settings is told with both values, three at most, and threads are no difference") {
+TEST_CASE("what differs between two settings is named with both values, three at most, and threads are no difference") {
     Scene one;
     one.title = "one";
     one.duration = 2.0;
@@ -139,7 +139,7 @@ TEST_CASE("what differs between two settings is told with both values, three at 
     other.duration = 3.0;
     CHECK(different_settings(settings_text(one), settings_text(other), "was") == "duration is 2.0, was 3.0");
     other.step.time_step = 0.5;
-    other.step.newton_share = 2.0;
+    other.step.newton_error_ratio = 2.0;
     other.step.work_limit = 7;
     const std::string text = different_settings(settings_text(one), settings_text(other), "in the checkpoint");
     CHECK(std::count(text.begin(), text.end(), ';') == 3);

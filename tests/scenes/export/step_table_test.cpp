@@ -45,7 +45,7 @@ TEST_CASE("the columns of a step table are those of the contract") {
           "time,dt,newton,linear,residual,contacts,smallest_distance,energy,status,contact_hash,state_hash,dropped");
 }
 
-TEST_CASE("the last column says in words why spans were redone, without a comma") {
+TEST_CASE("the last column says in words why substeps were redone, without a comma") {
     StepReport report = example();
     CHECK(cells(step_table_line(report, 0x1u)).back().empty());
     report.dropped = {.not_converged = 2, .blocked = 1};

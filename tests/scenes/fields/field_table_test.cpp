@@ -109,7 +109,7 @@ TEST_CASE("kind, count and default follow from the field") {
     CHECK(key("list").inside[0].default_text == "4");
 }
 
-TEST_CASE("rules of a table are told at their places") {
+TEST_CASE("faults against the rules of a table are reported at their places") {
     const std::string form = "circle = 5\n";
     CHECK(fault(form) == "t:1:1: thing lacks 'label', 'weight' or 'unit': what it is");
     CHECK(fault(form + "weight = 1\ninner = { count = 3 }\n") == "t:3:11: thing: weight and inner.count exclude each other");

@@ -4,7 +4,7 @@
 
 namespace percale::scenes::test::scene_keys_test {
 
-TEST_CASE("what a value must be is told in words, with its count or its choices") {
+TEST_CASE("what a value must be is said in words, with its count or its choices") {
     CHECK(kind_text({.path = "x", .kind = KeyKind::number}) == "a number");
     CHECK(kind_text({.path = "x", .kind = KeyKind::numbers, .count = 3}) == "a list of 3 numbers");
     CHECK(kind_text({.path = "x", .kind = KeyKind::word, .choices = {"mm", "cm"}}) == "one of mm, cm");

@@ -96,6 +96,6 @@ TEST_CASE("an option that stands for a key is named as it was typed") {
     CHECK(error_of([&] { apply_override(document, {"output.fps", "", "--fps"}); }) == "--fps: the value is empty");
 }
 
-TEST_CASE("a bad value is told with the key") { CHECK(fault("duration", "").starts_with("--set duration: ")); }
+TEST_CASE("a bad value is reported with the key") { CHECK(fault("duration", "").starts_with("--set duration: ")); }
 
 }  // namespace percale::scenes::test::overrides_test

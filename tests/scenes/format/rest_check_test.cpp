@@ -40,16 +40,16 @@ TEST_CASE("what can never be proven at rest is refused at its place") {
     CHECK(refusal(resting_sheet(), {{"obstacle.box.spin", "{ turns_per_s = 0.0 }"}}).empty());
 }
 
-TEST_CASE("what is to happen has to be over before the longest duration") {
+TEST_CASE("what is to happen has to be over before max_duration") {
     const std::string late = sheet_on_box() + "[[event]]\ntime = 2.5\ngravity = [0.0, -5.0, 0.0]\n";
-    CHECK(refusal(late, {until_rest, {"longest", "3"}}).empty());
-    CHECK(refusal(late, {until_rest, {"longest", "2.5"}}) ==
-          "t:21:1: event goes on until 2.5 s; with duration = \"rest\" all must be over before longest = 2.5 s");
+    CHECK(refusal(late, {until_rest, {"max_duration", "3"}}).empty());
+    CHECK(refusal(late, {until_rest, {"max_duration", "2.5"}}) ==
+          "t:21:1: event goes on until 2.5 s; with duration = \"rest\" all must be over before max_duration = 2.5 s");
     const std::string move =
         sheet_on_box() + "[[event]]\ntime = 2\nmove = { cloth = \"sheet\", vertices = [0], to = [0, 1, 0], over = 2 }\n";
-    CHECK(
-        refusal(move, {until_rest, {"longest", "3"}, {"cloth.sheet.pin", "[0]"}}).starts_with("t:21:1: event goes on until 4 s"));
-    const std::string seam = sheet_on_box() + "[[seam]]\ncloths = [\"sheet\", \"sheet\"]\nvertices = [[0, 1]]\nover = 30\n";
+    CHECK(refusal(move, {until_rest, {"max_duration", "3"}, {"cloth.sheet.pin", "[0]"}})
+              .starts_with("t:21:1: event goes on until 4 s"));
+    const std::string seam = sheet_on_box() + "[[seam]]\ncloths = [\"sheet\", \"sheet\"]\nvertices = [[0, 1]]\nduration = 30\n";
     CHECK(refusal(seam, {until_rest}).starts_with("t:21:1: seam: closing goes on until 30 s"));
     const Override motion{"obstacle.box.motion", "[{ time = 0 }, { time = 25, translation = [0, -0.3, 0] }]"};
     CHECK(refusal(sheet_on_box(), {until_rest, motion}).find(": obstacle 'box': motion goes on until 25 s") != std::string::npos);

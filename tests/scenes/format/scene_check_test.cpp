@@ -55,7 +55,7 @@ TEST_CASE("a dot in a quoted key does not reach into a table") {
     CHECK(fault("\"step.time_step\" = 0.1\n").starts_with("t:1:1: unknown key 'step.time_step' in the scene"));
 }
 
-TEST_CASE("the first fault in the order of the document is told") {
+TEST_CASE("the first fault in the order of the document is reported") {
     CHECK(fault("zz = 1\naa = 2\n").starts_with("t:1:1: unknown key 'zz'"));
 }
 
@@ -86,7 +86,7 @@ TEST_CASE("a wrong kind of value says what was expected and what was there") {
     CHECK(fault("duration = 2024-01-01\n") == "t:1:12: duration must be a number or \"rest\" (s), not a date or time");
 }
 
-TEST_CASE("a number out of range is told with key, value, unit and allowed range") {
+TEST_CASE("a number out of range is reported with key, value, unit and allowed range") {
     CHECK(fault("duration = -2.0\n") == "t:1:12: duration = -2 s is out of range; allowed: 1e-6 ... 1e6 s");
     CHECK(fault("duration = nan\n") == "t:1:12: duration = nan s is not finite");
     CHECK(fault("gravity = [0, -inf, 0]\n") == "t:1:15: gravity[1] = -inf m/s^2 is not finite");
@@ -235,7 +235,7 @@ TEST_CASE("a part of a document is checked as it is in the whole") {
     CHECK_NOTHROW(check_part(parse_toml("time_step = 0.5", "t"), "step", first));
 }
 
-TEST_CASE("a fabric without a name is told how to have one, a fabric with the name of a key is not") {
+TEST_CASE("the error of a fabric without a name says how to name it, a fabric with the name of a key is no error") {
     const std::string advice = "[fabric] lacks a name; write [fabric.NAME], not [fabric], above '";
     CHECK(fault("[fabric]\narea_density = 0.2\n") == "t:2:1: " + advice + "area_density'");
     CHECK(fault("[fabric]\nsprings = { structural = 500 }\n") == "t:2:1: " + advice + "springs'");
@@ -249,7 +249,7 @@ TEST_CASE("a fabric without a name is told how to have one, a fabric with the na
           "t:1:1: fabric must be a table of named tables, not a list of 1; write [fabric.NAME], once for each");
 }
 
-TEST_CASE("a rotation in degrees, and one of three numbers, are told what a quaternion is") {
+TEST_CASE("the errors of a rotation in degrees, and of one of three numbers, say what a quaternion is") {
     const std::string advice = "; it is a unit quaternion [w, x, y, z]: a turn by the angle a about";
     CHECK(fault_after("pose = { rotation = [0, 90, 0, 0] }\n").find("allowed: -1.001 ... 1.001" + advice) != std::string::npos);
     CHECK(fault_after("pose = { rotation = [0, 90, 0] }\n").find("not a list of 3" + advice) != std::string::npos);

@@ -223,7 +223,7 @@ TEST_CASE("an event of an unknown cloth is named with the nearest cloth") {
           "t:8:1: event: no cloth 'flga'; did you mean 'flag'? valid: flag");
 }
 
-TEST_CASE("a name twice is an error that tells both places") {
+TEST_CASE("a name twice is an error that names both places") {
     const std::string second = "[[cloth]]\nname = \"flag\"\nfabric = \"sheet\"\ngrid = { size = [1, 1], vertices = [2, 2] }\n";
     CHECK(fault(small_scene() + second) == "t:8:1: a second cloth 'flag'; the first is at t:4:1");
     const std::string body = "[[obstacle]]\nname = \"body\"\nshape = { plane = {} }\n";

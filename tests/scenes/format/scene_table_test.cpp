@@ -83,7 +83,7 @@ TEST_CASE("defaults are those of the structs") {
     CHECK(find_scene_key("step.scheme")->default_text == "backward_euler");
     CHECK(find_scene_key("step.detector")->default_text == "fcl");
     CHECK(find_scene_key("duration")->default_text == number_text(Scene{}.duration));
-    CHECK(find_scene_key("longest")->default_text == number_text(Scene{}.longest));
+    CHECK(find_scene_key("max_duration")->default_text == number_text(Scene{}.max_duration));
     CHECK(find_scene_key("gravity")->default_text == "[0, -9.81, 0]");
     CHECK(find_scene_key("obstacle.friction")->default_text == number_text(ObstacleSpec{}.friction));
     CHECK(find_scene_key("output.fps")->default_text == number_text(OutputSpec{}.fps));

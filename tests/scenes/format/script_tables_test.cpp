@@ -27,10 +27,10 @@ Expectation expectation(const std::string& text) { return expectations(text).at(
 
 TEST_CASE("a seam is read with its pairs, and sews at once where that is said") {
     const SeamSpec seam =
-        read_spec(parse_toml("cloths = [\"a\", \"b\"]\nvertices = [[1, 2], [3, 4]]\nover = 0\n", "t"), seam_table());
+        read_spec(parse_toml("cloths = [\"a\", \"b\"]\nvertices = [[1, 2], [3, 4]]\nduration = 0\n", "t"), seam_table());
     CHECK(seam.cloths == std::array<std::string, 2>{"a", "b"});
     CHECK(seam.vertices == std::vector<std::array<int, 2>>{{1, 2}, {3, 4}});
-    CHECK(seam.over == 0.0);
+    CHECK(seam.duration == 0.0);
     CHECK(seam.stiffness == SeamSpec{}.stiffness);
     CHECK_FALSE(seam.points);
     CHECK(seam.file.empty());
@@ -55,7 +55,7 @@ TEST_CASE("a seam is read with points of edges and with a file, its cloths left 
     CHECK(seam.file == "mesh");
     CHECK(seam.name == "hem");
     CHECK(error_of([] {
-              read_spec(parse_toml("over = 1\n", "t"), seam_table());
+              read_spec(parse_toml("duration = 1\n", "t"), seam_table());
           }).find("seam lacks 'vertices', 'points' or 'file'") != std::string::npos);
 }
 

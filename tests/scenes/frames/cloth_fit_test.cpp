@@ -73,7 +73,7 @@ TEST_CASE("fields come in the order of their words, and only those") {
     for (const std::string_view word : fit_words) CHECK(fit_words_meaning().find(std::string(word) + ": ") != std::string::npos);
 }
 
-TEST_CASE("a spread tells the ends, the middle and what 95 of 100 values do not exceed") {
+TEST_CASE("a spread holds the ends, the middle and what 95 of 100 values do not exceed") {
     std::vector<double> values;
     for (int k = 100; k >= 0; --k) values.push_back(k);
     const Spread spread = spread_of(values);

@@ -24,7 +24,7 @@ FrameFiles write_three(const FrameFormat& format, const TestFolder& folder) {
     for (int index = 0; index < 3; ++index) {
         const std::vector<TriangleMesh> cloths = {shifted(make_grid(1.0, 1.0, 3, 3), index)};
         const std::vector<TriangleMesh> obstacles = {make_plane(2.0), shifted(make_sphere(0.2, 1), -index)};
-        // A new encoder for every frame, as in runs that are gone on with.
+        // A new encoder for every frame, as in resumed runs.
         last = format.make(cast)->write({.index = index, .time = 0.04 * index, .cloths = cloths, .obstacles = obstacles}, files);
     }
     format.make(cast)->finish(std::vector<double>{0.0, 0.04, 0.08}, files);

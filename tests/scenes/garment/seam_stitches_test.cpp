@@ -42,7 +42,7 @@ TEST_CASE("a seam has the pairs and points of the scene file, and those of its o
     CHECK(built.simulation.seam_gaps(built.seams[1].id)[0] == 3.0);
 }
 
-TEST_CASE("what a seam cannot join is told at its place") {
+TEST_CASE("what a seam cannot join is reported at its place") {
     CHECK(fault(std::string(grid) + "[[seam]]\nvertices = [[0, 3]]\n").find("seam lacks cloths: the scene has 2") !=
           std::string::npos);
     CHECK(fault(std::string(grid) + "[[seam]]\ncloths = [\"a\", \"b\"]\nfile = \"mesh\"\n").find("is of one cloth") !=

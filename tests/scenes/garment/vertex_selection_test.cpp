@@ -24,7 +24,7 @@ TEST_CASE("indices come out ascending and once") {
     CHECK(selected(VertexIndices{}, make_grid(1, 1, 5, 4)).empty());
 }
 
-TEST_CASE("an index out of range is told with the cloth and the allowed range") {
+TEST_CASE("an index out of range is reported with the cloth and the allowed range") {
     CHECK(fault(VertexIndices{{20}}, make_grid(1, 1, 5, 4)) ==
           "vertices of cloth 'flag': vertex 20 is out of range; allowed: 0 ... 19");
     CHECK(fault(VertexIndices{{-1}}, make_grid(1, 1, 5, 4)).find("vertex -1 is out of range") != std::string::npos);

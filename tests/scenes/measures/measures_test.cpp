@@ -145,7 +145,7 @@ TEST_CASE("strain and distance take their extreme over the steps") {
     CHECK(measures.smallest_distance == Approx(0.3));
 }
 
-TEST_CASE("what failed over a whole run is told with the frame, what passed or is of a time is not") {
+TEST_CASE("what failed over a whole run is reported with the frame, what passed or is of a time is not") {
     Measures measures;
     measures.intersections = 3;
     measures.worst_frame = 12;
@@ -257,7 +257,7 @@ TEST_CASE("steps in which obstacles give way are one pinch as long as they pause
     Scene scene;
     for (const char* name : {"arm", "trunk", "leg"}) scene.obstacles.emplace_back().name = name;
     CHECK(pinch_text(pinches[0], scene) ==
-          "'arm' and 'leg' pinched cloth; what yields (on_pinch) was dented, by up to 0.01 m, from 0.9 s to 1.3 s");
+          "'arm' and 'leg' pinched cloth; the compliant obstacle (on_pinch) gave way by up to 0.01 m, from 0.9 s to 1.3 s");
     CHECK(pinch_text(pinches[1], scene).find("'trunk' pinched cloth") == 0);
 }
 

@@ -45,7 +45,7 @@ TEST_CASE("what is expected at a time is measured in the first state at that tim
     CHECK(judged.verdicts[0].text == "speed_at_end at 0.05 s 0.4905, expected < 1: passed");
 }
 
-TEST_CASE("what a run has at its end must hold in every state of a span, and the value is the farthest from it") {
+TEST_CASE("what a run has at its end must hold in every state of an interval, and the value is the farthest from it") {
     const Judged judged = run(falling_sheet() +
                               "[[expect]]\nduring = [0.02, 0.06]\nspeed_at_end = { between = [0.1, 0.5] }\n"
                               "lowest_vertex = { above = 1.985 }\n"
@@ -67,13 +67,13 @@ TEST_CASE("a time that the run does not reach was not measured, which has failed
     CHECK_FALSE(judged.verdicts.at(0).passed);
 }
 
-TEST_CASE("the widest gap of seams is measured at the end, at a time and in every state of a span, and not without a seam") {
+TEST_CASE("the widest gap of seams is measured at the end, at a time and in every state of an interval, and not without a seam") {
     const std::string sheets =
         "duration = 0.2\n[step]\ntime_step = 0.01\n[fabric.f]\nsprings = { structural = 100.0 }\n"
         "[[cloth]]\nname = \"a\"\nfabric = \"f\"\ngrid = { size = [1, 1], vertices = [2, 2] }\n"
         "[[cloth]]\nname = \"b\"\nfabric = \"f\"\ngrid = { size = [1, 1], vertices = [2, 2] }\n"
         "pose = { translation = [0, 0.1, 0] }\n";
-    const std::string seam = "[[seam]]\ncloths = [\"a\", \"b\"]\nvertices = [[0, 0], [1, 1]]\nover = 0.1\nstiffness = 1e4\n";
+    const std::string seam = "[[seam]]\ncloths = [\"a\", \"b\"]\nvertices = [[0, 0], [1, 1]]\nduration = 0.1\nstiffness = 1e4\n";
     const std::string expected =
         "[[expect]]\nlargest_seam_gap = { below = 0.01 }\n[[expect]]\nat = 0.05\nlargest_seam_gap = { between = [0.04, 0.06] }\n"
         "[[expect]]\nduring = [0.0, 0.2]\nlargest_seam_gap = { below = 0.05 }\n";
@@ -81,7 +81,7 @@ TEST_CASE("the widest gap of seams is measured at the end, at a time and in ever
     CHECK(judged.verdicts.at(0).passed);
     CHECK(judged.verdicts.at(0).value == judged.result.measures.largest_seam_gap);
     CHECK(judged.verdicts.at(1).passed);
-    // At its widest, which is the start.
+    // The gap is widest at the start.
     CHECK_FALSE(judged.verdicts.at(2).passed);
     CHECK(*judged.verdicts.at(2).value == Approx(0.1).epsilon(0.02));
     for (const ExpectationResult& verdict : run(sheets + expected).verdicts) {
@@ -90,7 +90,7 @@ TEST_CASE("the widest gap of seams is measured at the end, at a time and in ever
     }
 }
 
-TEST_CASE("over a span that is the whole run sums and extremes are those of the run") {
+TEST_CASE("over an interval that is the whole run sums and extremes are those of the run") {
     const std::string measures =
         "intersections = 0\ndeepest_penetration = { below = 1.0 }\nsmallest_distance = { above = 0.0 }\n"
         "largest_strain = { below = 1.0 }\nenergy_gain = { below = 1.0 }\n";
@@ -104,7 +104,7 @@ TEST_CASE("over a span that is the whole run sums and extremes are those of the 
     }
 }
 
-TEST_CASE("a span sees only what happens within it: before the sheet meets the box nothing is near") {
+TEST_CASE("an interval holds only what happens within it: before the sheet meets the box nothing is near") {
     const Judged judged = run(sheet_on_box() +
                               "[[expect]]\nduring = [0.0, 0.02]\nsmallest_distance = { above = 0.005 }\n"
                               "[[expect]]\nat = 0.2\nsmallest_distance = { below = 0.006 }\n");
@@ -140,7 +140,7 @@ TEST_CASE("what was measured goes along with a checkpoint, and a time that is ov
     CHECK_THROWS_WITH(run_scene(third, {}, {.from = &state}), Catch::Contains("what was expected of it"));
 }
 
-TEST_CASE("a strain that is too large is told with its cloth and its time") {
+TEST_CASE("a strain that is too large is reported with its cloth and its time") {
     const auto sheet = [](const std::string& name, const std::string& density) {
         return "[fabric." + name + "]\narea_density = " + density + "\nsprings = { structural = 100 }\n[[cloth]]\nname = \"" +
                name + "\"\nfabric = \"" + name + "\"\ngrid = { size = [0.2, 0.2], vertices = [3, 3] }\npin = [0]\n";

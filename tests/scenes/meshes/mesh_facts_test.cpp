@@ -129,7 +129,7 @@ TEST_CASE("shapes are watertight, in one part, right side out, grids have a boun
     CHECK(grid.farthest() == Approx(1.0));
 }
 
-TEST_CASE("a part turned inside out is told from a cavity and from an open one") {
+TEST_CASE("a part turned inside out is distinguished from a cavity and from an open one") {
     const TriangleMesh ball = make_sphere(1.0, 1);
     CHECK(mesh_facts(turned(ball)).inverted_parts == std::vector<int>{0});
     const TriangleMesh shell = both(ball, turned(make_sphere(0.5, 1)));
@@ -142,7 +142,7 @@ TEST_CASE("a part turned inside out is told from a cavity and from an open one")
     CHECK(mesh_facts(open).inverted_parts.empty());
 }
 
-TEST_CASE("slivers are told from flat triangles by their height") {
+TEST_CASE("slivers are distinguished from flat triangles by their height") {
     const auto triangle = [](double height) {
         return mesh_facts({.vertices = {{0, 0, 0}, {1, 0, 0}, {0.3, height, 0}}, .triangles = {{0, 1, 2}}});
     };

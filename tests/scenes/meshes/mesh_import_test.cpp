@@ -169,7 +169,7 @@ TEST_CASE("a node of an imported scene is taken alone, in its place") {
     CHECK(fault.find(file + ": no object or group 'n4' with faces; did you mean 'n1'? valid: n1, ") == 0);
 }
 
-TEST_CASE("an animation that is left out is told of") {
+TEST_CASE("an animation that is left out is reported") {
     const TestFolder folder;
     const std::string still = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
 "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],

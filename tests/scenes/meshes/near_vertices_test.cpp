@@ -63,7 +63,7 @@ TEST_CASE("vertices that are just as far apart as is said become one wherever th
     }
 }
 
-TEST_CASE("a mesh file is welded in m, which is told where triangles go, and refused where none is left") {
+TEST_CASE("a mesh file is welded in m, which is reported where triangles go, and refused where none is left") {
     const TestFolder folder;
     const std::string file = folder.write("two.obj",
                                           "v 0 0 0\nv 100 0 0\nv 0 0 100\nv 100.01 0 0\nv 100 0 100\nv 0 0 100.01\nv 0 0 0.01\n"

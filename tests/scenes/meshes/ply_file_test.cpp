@@ -138,7 +138,7 @@ TEST_CASE("binary coordinates are the bits of the file in both orders of bytes")
     }
 }
 
-TEST_CASE("coordinates of every whole type reach from its lowest to its highest number") {
+TEST_CASE("coordinates of every whole type range from its lowest to its highest number") {
     for (const BinaryFormat& format : binary_formats) {
         for (const WholeType& type : whole_types) {
             INFO(format.name << " " << type.names[0]);

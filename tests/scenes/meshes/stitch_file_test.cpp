@@ -31,7 +31,7 @@ TEST_CASE("an OBJ file's stitches are its lines of that keyword") {
     CHECK_THROWS_AS(read_obj_stitches(none), SceneError);
 }
 
-TEST_CASE("what is no stitch is told with its line") {
+TEST_CASE("what is no stitch is reported with its line") {
     const TestFolder folder;
     const auto message = [&](const std::string& text) {
         const std::string file = file_of(folder, text);

@@ -32,7 +32,7 @@ TEST_CASE("a binary STL needs 50 bytes a triangle") {
     CHECK(refusal_of("short") == ": not an STL file: 5 bytes are less than its header");
 }
 
-TEST_CASE("a text STL in wide characters is told of") {
+TEST_CASE("a text STL in wide characters is refused by name") {
     for (const int first : {0, 1}) {
         for (const std::string mark : {"", first == 0 ? "\xFF\xFE" : "\xFE\xFF"}) {
             std::string wide = mark;

@@ -25,7 +25,7 @@ std::string fault_of(const std::string& accessor, std::size_t components = 1) {
 
 }  // namespace
 
-TEST_CASE("An accessor's numbers lie a stride apart, of every type, as shares of the largest where they are normalized") {
+TEST_CASE("An accessor's numbers lie a stride apart, of every type, as fractions of the largest where they are normalized") {
     CHECK(numbers_of(R"({"bufferView":0,"componentType":5121,"count":3,"type":"SCALAR"})", 1) == std::vector<double>{1, 3, 5});
     CHECK(numbers_of(R"({"bufferView":0,"byteOffset":2,"componentType":5123,"count":2,"type":"SCALAR"})", 1) ==
           std::vector<double>{0x0403, 0x0605});

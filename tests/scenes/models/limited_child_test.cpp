@@ -41,7 +41,7 @@ TEST_CASE("An error in a child is the caller's, with its text") {
     CHECK(fault_of([]() -> std::vector<std::byte> { throw 7; }) == "ended without a result (exit code 1)");
 }
 
-TEST_CASE("A child that crashes, does not end or takes too much memory is told of, and this process goes on") {
+TEST_CASE("A child that crashes, does not end or takes too much memory is reported, and this process goes on") {
     CHECK(fault_of([]() -> std::vector<std::byte> {
               std::raise(SIGSEGV);
               std::abort();

@@ -41,7 +41,7 @@ TEST_CASE("an object or a group of an OBJ file is taken with its own vertices, i
     CHECK(leg.uv[0] == std::array<Eigen::Vector2d, 3>{Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1)});
 }
 
-TEST_CASE("a part that a file does not have is told of with those that it has") {
+TEST_CASE("a part that a file does not have is reported with those that it has") {
     CHECK(error_of([] { part_of("eyes"); }) ==
           "body.obj: no object or group 'eyes' with faces; did you mean 'Eyes'? valid: The Body, skin, arm, leg, Eyes");
     std::istringstream bare("o none\no\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

@@ -9,14 +9,14 @@ namespace percale::scenes::test::page_data_test {
 
 using nlohmann::json;
 
-TEST_CASE("Meshes have the names of the settings, or of their files where the settings do not tell") {
+TEST_CASE("Meshes have the names of the settings, or of their files where the settings hold none") {
     FrameRecord first;
     first.cloths = {"frames/a_00000.obj", "frames/b_00000.obj"};
     first.obstacles = {"obstacles/c_00000.obj"};
-    const RunCast told =
+    const RunCast reported =
         cast_of_report(R"({"settings": {"cloth": [{"name": "A"}, {"name": "B"}], "obstacle": [{"name": "C"}]}})", first);
-    CHECK(told.cloths == std::vector<std::string>{"A", "B"});
-    CHECK(told.obstacles == std::vector<std::string>{"C"});
+    CHECK(reported.cloths == std::vector<std::string>{"A", "B"});
+    CHECK(reported.obstacles == std::vector<std::string>{"C"});
     for (const char* report :
          {"{}", "[]", R"({"settings": 3})", R"({"settings": {"cloth": [{"name": "A"}], "obstacle": [1]}})"}) {
         const RunCast untold = cast_of_report(report, first);

@@ -104,13 +104,13 @@ TEST_CASE("Frames are left out to keep a size, and the sum of what is packed kee
     };
     const std::size_t all = size_of(read_falling(folder, records));
     for (const std::size_t most : {all, all - 1, all * 3 / 4, all * 2 / 3}) {
-        const Playback playback = read_falling(folder, records, {.most_bytes = most, .worst_frame = 7});
+        const Playback playback = read_falling(folder, records, {.max_bytes = most, .worst_frame = 7});
         CHECK(size_of(playback) <= most);
         CHECK((playback.choice.every == 1) == (most == all));
         CHECK(std::ranges::count(playback.choice.shown, 7) == 1);
         CHECK(numbers_of_base64(playback.meshes[0].positions, 2).size() == playback.choice.shown.size() * 27);
     }
-    CHECK(refused_falling(folder, records, {.most_bytes = 1000}).find(": the first and the last frame alone take 0.0") !=
+    CHECK(refused_falling(folder, records, {.max_bytes = 1000}).find(": the first and the last frame alone take 0.0") !=
           std::string::npos);
 }
 

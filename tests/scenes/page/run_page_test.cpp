@@ -95,7 +95,7 @@ TEST_CASE("A page keeps to its size by leaving frames out, and says so", "[slow]
     const PageSummary all = write_run_page(folder.path("run"), folder.path("all.html"));
     CHECK(all.every == 1);
     CHECK(all.bytes > 2'000'000);
-    const PageSummary some = write_run_page(folder.path("run"), folder.path("some.html"), {.most_megabytes = 2.0});
+    const PageSummary some = write_run_page(folder.path("run"), folder.path("some.html"), {.max_megabytes = 2.0});
     CHECK(some.bytes <= 2'000'000);
     CHECK(some.every > 1);
     CHECK(some.shown < all.shown);
@@ -121,7 +121,7 @@ TEST_CASE("A folder that is no run, or a broken one, leaves no page and one mess
     CHECK(refused_page(folder).find("run/frames/sheet_00003.obj: is missing") != std::string::npos);
     std::filesystem::remove(folder.path("run/steps.csv"));
     CHECK(refused_page(folder).find("run/steps.csv: cannot be read") != std::string::npos);
-    CHECK(refused_page(folder, {.most_megabytes = 1.0}) == "--most-megabytes 1: must be 2 ... 500 MB");
+    CHECK(refused_page(folder, {.max_megabytes = 1.0}) == "--most-megabytes 1: must be 2 ... 500 MB");
 }
 
 TEST_CASE("A page that cannot be written is one message and no file") {

@@ -32,11 +32,11 @@ TEST_CASE("A short table of steps is kept step by step, what is not finite as no
     CHECK(series.steps == 3);
     CHECK(series.every == 1);
     CHECK(series.time == std::vector<double>{0.1, 0.2, 0.3});
-    CHECK(column_of(series, "newton").least == std::vector<double>{2, 5, 3});
-    CHECK(column_of(series, "newton").most == std::vector<double>{2, 5, 3});
-    CHECK(std::isnan(column_of(series, "smallest_distance").least[0]));
-    CHECK(column_of(series, "smallest_distance").least[1] == 0.25);
-    for (const double energy : column_of(series, "energy").most) CHECK(std::isnan(energy));
+    CHECK(column_of(series, "newton").min == std::vector<double>{2, 5, 3});
+    CHECK(column_of(series, "newton").max == std::vector<double>{2, 5, 3});
+    CHECK(std::isnan(column_of(series, "smallest_distance").min[0]));
+    CHECK(column_of(series, "smallest_distance").min[1] == 0.25);
+    for (const double energy : column_of(series, "energy").max) CHECK(std::isnan(energy));
     CHECK(series.bad == std::vector<double>{0.3});
     CHECK(series.bad_steps == 1);
 }
@@ -52,9 +52,9 @@ TEST_CASE("A long table keeps the smallest and the largest of each group of step
     REQUIRE(series.time.size() == 4);
     CHECK(series.time[0] == Approx(0.3));
     CHECK(series.time[3] == Approx(1.0));
-    CHECK(column_of(series, "newton").least == std::vector<double>{1, 4, 7, 10});
-    CHECK(column_of(series, "newton").most == std::vector<double>{3, 50, 9, 10});
-    CHECK(column_of(series, "smallest_distance").least[0] == 0.1);
+    CHECK(column_of(series, "newton").min == std::vector<double>{1, 4, 7, 10});
+    CHECK(column_of(series, "newton").max == std::vector<double>{3, 50, 9, 10});
+    CHECK(column_of(series, "smallest_distance").min[0] == 0.1);
 }
 
 TEST_CASE("A run without steps has no series") {

@@ -76,7 +76,7 @@ TEST_CASE("a side that is longer by a tenth has vertices between the stitches, t
     }
 }
 
-TEST_CASE("in a gather with a corner and an edge that runs backwards stitches join like shares") {
+TEST_CASE("in a gather with a corner and an edge that runs backwards stitches join equal fractions") {
     std::string wide = yoke;
     wide.replace(wide.find("[30.4, 0]"), 9, "[45.0, 0]");
     const EdgeStations stations =

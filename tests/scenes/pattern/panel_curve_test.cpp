@@ -54,7 +54,7 @@ TEST_CASE("Bezier curves are their polynomials and as long as their chords") {
     }
 }
 
-TEST_CASE("points at equal shares are equally far apart along the curve, and the ends are the corners") {
+TEST_CASE("points at equal fractions are equally far apart along the curve, and the ends are the corners") {
     for (const Panel& panel :
          {one_edge(EdgeCurve::line, {}), one_edge(EdgeCurve::arc, {{1, 0.7}}), one_edge(EdgeCurve::quadratic, {{0.1, 1.5}}),
           one_edge(EdgeCurve::cubic, {{0.0, 1.0}, {2.5, -1.0}})}) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double to_degrees = 180.0 / std::numbers::pi;
 
-void check_mesh_of(const std::vector<Point2>& outline, double edge_length, double least_degrees) {
+void check_mesh_of(const std::vector<Point2>& outline, double edge_length, double min_degrees) {
     const PanelMesh mesh = mesh_panel(outline, edge_length);
     REQUIRE(mesh.vertices.size() >= outline.size());
     for (std::size_t k = 0; k < outline.size(); ++k) CHECK(mesh.vertices[k] == outline[k]);
@@ -30,7 +30,7 @@ void check_mesh_of(const std::vector<Point2>& outline, double edge_length, doubl
         CHECK(sides.contains({k, (k + 1) % count}));
         CHECK_FALSE(sides.contains({(k + 1) % count, k}));
     }
-    CHECK(smallest_angle(mesh) * to_degrees > least_degrees);
+    CHECK(smallest_angle(mesh) * to_degrees > min_degrees);
 }
 
 }  // namespace

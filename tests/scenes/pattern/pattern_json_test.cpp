@@ -63,7 +63,7 @@ TEST_CASE("the end of an edge is sewn to the beginning of the other, unless the 
     CHECK(pattern.seams[1].sides[1][0].edge == 2);
 }
 
-TEST_CASE("what is no pattern is told with its panel or stitch") {
+TEST_CASE("what is no pattern is reported with its panel or stitch") {
     const std::string edges = std::string(R"({"endpoints": [0, 1]}, )") + straight;
     CHECK(fault("{").find("is no JSON from its byte") != std::string::npos);
     CHECK(fault("{}").find("is no sewing pattern") != std::string::npos);

@@ -49,7 +49,7 @@ TEST_CASE("curves with control points, wraps, mirrors and sides whose direction 
     CHECK(pattern.seams[0].sides[1][1].edge == 0);
 }
 
-TEST_CASE("what is wrong in a pattern is told at its place") {
+TEST_CASE("what is wrong in a pattern is reported at its place") {
     CHECK(fault("unit = \"foot\"\n[[panel]]\n").find("t:1:8: unit has no choice 'foot'") == 0);
     CHECK(fault("[[panel]]\nname = \"a\"\n").find("a pattern lacks unit") != std::string::npos);
     CHECK(fault("unit = \"cm\"\n").find("a pattern lacks panel") != std::string::npos);

@@ -26,7 +26,7 @@ Camera fitted(const CameraAim& aim, int width, int height, const std::vector<Vec
 
 }  // namespace
 
-TEST_CASE("a fitted camera sees every vertex from everywhere, and touches its margin") {
+TEST_CASE("a fitted camera sees every vertex from everywhere, up to its margin") {
     const std::vector<Vec3> points = cloud(7);
     const std::pair<int, int> sizes[] = {{1200, 900}, {300, 900}, {900, 200}};
     const double elevations[] = {-90.0, -20.0, 0.0, 12.0, 90.0};

@@ -76,7 +76,7 @@ TEST_CASE("values of both signs have a range alike on both sides of 0, equal one
     }
 }
 
-TEST_CASE("a range that is asked for is kept and tells what lies beyond, and a wrong one is refused") {
+TEST_CASE("a range that is asked for is kept and says what lies beyond, and a wrong one is refused") {
     const FieldRange range = spread_of_values({-3.0, 0.5}).range(-1.0, 0.77);
     CHECK((range.low == -1.0 && range.high == 0.77));
     CHECK((range.some_below && !range.some_above));

@@ -43,7 +43,7 @@ TEST_CASE("the camera is fitted to cloth and to what of bodies is near it, to bo
     CHECK(fitted_points(frame).size() == 12 + 4);
 }
 
-TEST_CASE("a picture has its size, its bar at the right, and tells the range") {
+TEST_CASE("a picture has its size, its bar at the right, and reports the range") {
     if (!draws()) return;
     const TestFolder folder;
     PictureStyle style;

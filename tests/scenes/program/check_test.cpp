@@ -14,7 +14,7 @@ bool ends_with(const std::string& text, const std::string& end) {
     return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-/// With what differs from call to call taken out: how each scene's result came about.
+/// The output without what differs from call to call, which is how each scene's result came about.
 std::string results(std::string text) {
     for (const std::string part : {"kept: finished earlier", ", resumed at", "; run again: "}) {
         for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part)) {
@@ -78,7 +78,7 @@ TEST_CASE("a wrong scene does not keep the others from running, but decides the 
     CHECK(ends_with(run.out, "2 of 3 scenes finished, 1 of 2 expectations passed\n"));
 }
 
-TEST_CASE("a scene without expectations is told so, and passes exactly if its run finishes") {
+TEST_CASE("a scene without expectations is reported as such, and passes exactly if its run finishes") {
     const TestFolder folder;
     folder.write("free.toml", falling_sheet());
     const ProgramRun good = run_program({"check", "free.toml"}, folder.path());
@@ -121,7 +121,7 @@ TEST_CASE("the option --set and --fps reach every scene") {
     CHECK(run_program({"check", "a.toml", "b.toml", "--set", "duration=0.02", "--fps", "10"}, folder.path()).exit_code == 0);
 }
 
-TEST_CASE("the option --junit tells the same to machines") {
+TEST_CASE("the option --junit writes the same for machines") {
     const TestFolder folder;
     folder.write("bad.toml", falling_sheet() + "[expect]\nspeed_at_end = { below = 0.05 }\nintersections = 0\n");
     CHECK(run_program({"check", "bad.toml", "absent.toml", "--junit", "junit.xml", "--quiet"}, folder.path()).exit_code == 2);

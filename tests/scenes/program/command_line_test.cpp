@@ -47,7 +47,7 @@ TEST_CASE("an option that takes three numbers says so where it gets others") {
     CHECK(refused(with({"--move=1,2", "-o", "x.obj"}), "--move takes three numbers, as in --move 0 1.5 0, but 2 are given"));
     CHECK(refused(with({"--move", "1,2,3,4", "-o", "x.obj"}), "but 4 are given"));
     CHECK(refused(with({"-o", "x.obj", "--rotate", "0,90deg,0"}), "'90deg' is no number"));
-    // What is right goes on, to the files.
+    // Correct options pass, and the next error is about the files.
     CHECK(refused(with({"-o", "x.obj", "--move", "-1", "-.5", "2e-3"}), "cannot be read"));
     CHECK(refused(with({"-o", "x.obj", "--move", "-1,-.5,2e-3"}), "cannot be read"));
 }

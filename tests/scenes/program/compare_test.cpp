@@ -57,7 +57,7 @@ TEST_CASE("compare refuses words and numbers that mean nothing, names the neares
     CHECK_FALSE(folder.holds("sheet"));
 }
 
-TEST_CASE("compare with nothing that finished is a failure, told in its rows") {
+TEST_CASE("compare with nothing that finished is a failure, reported in its rows") {
     const TestFolder folder;
     folder.write("box.toml", sheet_on_box());
     const ProgramRun run =

@@ -110,7 +110,7 @@ TEST_CASE("when the time is up the garment is written all the same, and the spee
     CHECK(folder.holds("draped.obj"));
 }
 
-TEST_CASE("a garment that is not on the body at the end is told to be moved") {
+TEST_CASE("for a garment that is not on the body at the end the advice is to move it") {
     const TestFolder folder;
     write_pair(folder, 1.0);
     const ProgramRun run = run_program(
@@ -124,7 +124,7 @@ TEST_CASE("a garment that is not on the body at the end is told to be moved") {
     CHECK(slid.error.find("percale: slid.obj: fell off the body; use --move") == 0);
 }
 
-TEST_CASE("a garment that falls since its pieces are not joined is told to be mended, and swapped files are told of once") {
+TEST_CASE("the advice for a garment whose pieces are not joined and fall is to mend it, and swapped files are reported once") {
     const TestFolder folder;
     write_pair(folder, 1.0);
     using namespace scenes::test;
@@ -216,7 +216,7 @@ TEST_CASE("a garment that is moved first falls as one that was there from the st
     CHECK(draped({"--move", "0.25", "0.5", "0.125", "sheet.obj"}, "a.obj") == draped({"moved.obj"}, "b.obj"));
 }
 
-TEST_CASE("a garment that crosses itself is untangled first, and without self-contact it is told how often it does") {
+TEST_CASE("a garment that crosses itself is untangled first, and without self-contact it is reported how often it does") {
     const TestFolder folder;
     write_pair(folder, 1.0);
     // A second layer, tilted: at one side it is 3 mm below the first.
@@ -291,7 +291,7 @@ TEST_CASE("a pattern without a seam gets its weight, too") {
     CHECK(lowest < 0.09);
 }
 
-TEST_CASE("what is wrong within a pattern is told with its place, and the file once") {
+TEST_CASE("what is wrong within a pattern is reported with its place, and the file once") {
     const TestFolder folder;
     write_pair(folder, 1.0);
     folder.write("cloth.toml",

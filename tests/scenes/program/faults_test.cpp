@@ -87,7 +87,7 @@ TEST_CASE("a checkpoint that cannot be written leaves the one before") {
     CHECK(folder.file_count() == 1);
 }
 
-TEST_CASE("places where no folder or file can be made are told with the reason") {
+TEST_CASE("places where no folder or file can be made are reported with the reason") {
     const TestFolder folder;
     folder.write("sheet.toml", falling_sheet());
     folder.write("file", "mine");

@@ -94,7 +94,7 @@ TEST_CASE("views, frames, backgrounds and hidden bodies make different pictures"
     CHECK(folder.read("out.png") == third);
 }
 
-TEST_CASE("fields of frames are drawn where a run has them, and tell the range, else how to get them is said") {
+TEST_CASE("fields of frames are drawn where a run has them, with the range reported, else how to get them is said") {
     if (!draws()) return;
     const TestFolder folder;
     run_sheet(folder, "obj,ply", "[\"strain\", \"pressure\"]");

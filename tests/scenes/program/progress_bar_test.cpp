@@ -80,7 +80,7 @@ TEST_CASE("in a log every tenth that takes its time has a line, the end none") {
         std::FILE* file = std::tmpfile();
         REQUIRE(file != nullptr);
         {
-            percale::program::ProgressBar bar(true, 4.0, {}, {.file = file, .least_seconds = seconds});
+            percale::program::ProgressBar bar(true, 4.0, {}, {.file = file, .min_seconds = seconds});
             for (int k = 0; k <= 400; ++k) bar.show(0.01 * k);
         }
         std::rewind(file);

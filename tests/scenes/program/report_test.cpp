@@ -22,7 +22,7 @@ const std::string page_start = "<!DOCTYPE html>";
 
 }  // namespace
 
-TEST_CASE("report writes the page of a run into its folder, or where it is told to") {
+TEST_CASE("report writes the page of a run into its folder, or to the file that is given") {
     if (!can_report()) return;
     const TestFolder folder;
     folder.write("box.toml", sheet_on_box());

@@ -56,9 +56,10 @@ TEST_CASE("a run until rest ends by itself, with a last frame, or fails and says
     CHECK(report.at("frames").back().at("time") == report.at("simulated_s"));
     CHECK(folder.holds("out/" + report.at("frames").back().at("cloths").at(0).get<std::string>()));
     CHECK(report.at("settings").at("duration") == "rest");
-    CHECK(report.at("settings").at("longest") == 20.0);
-    const ProgramRun early = run_program(
-        {"run", "sheet.toml", "-o", "early", "--set", "duration=\"rest\"", "--set", "longest=0.3", "--quiet"}, folder.path());
+    CHECK(report.at("settings").at("max_duration") == 20.0);
+    const ProgramRun early =
+        run_program({"run", "sheet.toml", "-o", "early", "--set", "duration=\"rest\"", "--set", "max_duration=0.3", "--quiet"},
+                    folder.path());
     CHECK(early.exit_code == 1);
     CHECK(early.error.starts_with(
         "percale: sheet.toml: failed: not at rest (still for half a second, its forces balanced) after 0.3 s, the "));

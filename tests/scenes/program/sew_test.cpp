@@ -16,7 +16,7 @@ TEST_CASE("a pattern is sewn into a mesh, which a scene drapes with its seams cl
     const std::string head =
         "duration = 0.8\ngravity = [0, 0, 0]\n[fabric.f]\npreset = \"cotton\"\ndamping_time = 0.05\n"
         "[[cloth]]\nname = \"skirt\"\nfabric = \"f\"\n";
-    const std::string seam = "[[seam]]\nfile = \"mesh\"\nover = 0.3\n";
+    const std::string seam = "[[seam]]\nfile = \"mesh\"\nduration = 0.3\n";
     folder.write("by_mesh.toml", head + "mesh = \"skirt.obj\"\nrest = \"uv\"\n" + seam);
     folder.write("by_pattern.toml", head + "pattern = \"skirt.toml\"\nedge_length = 0.04\n" + seam);
     for (const std::string name : {"by_mesh", "by_pattern"}) {

@@ -36,7 +36,7 @@ TEST_CASE("stress repeats one cell of the default matrix") {
     CHECK(line_count(folder.read("stress_cell_700/stress.csv")) == 2);  // beside the map of a whole matrix
 }
 
-TEST_CASE("stress tells which schemes refuse a scene with an obstacle, and that is no failure") {
+TEST_CASE("stress names the schemes that refuse a scene with an obstacle, and that is no failure") {
     const TestFolder folder;
     folder.write("box.toml", sheet_on_box());
     const ProgramRun run = run_program(

@@ -23,7 +23,7 @@ TEST_CASE("what is no colour is refused with an example") {
         CHECK(message_of([&] { colour_of_hex(text); }).find("six hexadecimal digits") != std::string::npos);
 }
 
-TEST_CASE("colours of the first sixteen cloths are told apart, from each other and from bodies") {
+TEST_CASE("colours of the first sixteen cloths are distinct, from each other and from bodies") {
     for (std::size_t a = 0; a < 16; ++a) {
         for (std::size_t b = 0; b < a; ++b) CHECK((cloth_colour(a) - cloth_colour(b)).norm() > 0.04f);
         for (std::size_t b = 0; b < 4; ++b) CHECK((cloth_colour(a) - body_colour(b)).norm() > 0.1f);

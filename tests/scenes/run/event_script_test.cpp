@@ -62,12 +62,12 @@ TEST_CASE("a vertex that is not pinned when it is to move is named") {
     CHECK(fault(event(1, towel)).find("vertex 0 of cloth 'towel'") != std::string::npos);
 }
 
-TEST_CASE("a vertex out of range is told with the place of the event") {
+TEST_CASE("a vertex out of range is reported with the place of the event") {
     CHECK(fault(event(1, "unpin = { cloth = \"towel\", vertices = [9] }")) ==
           "t:13:1: event: vertices of cloth 'towel': vertex 9 is out of range; allowed: 0 ... 8");
 }
 
-TEST_CASE("a scene made in memory may name a cloth that is not there, and is told") {
+TEST_CASE("a scene made in memory may name a cloth that is not there, which is reported") {
     Scene scene = two_cloths("");
     scene.events.push_back({.time = 0.0, .what = UnpinEvent{"curtain", VertexIndices{{0}}}, .place = {}});
     const std::vector<TriangleMesh> meshes = {make_grid(0.4, 0.3, 5, 4), make_grid(1, 1, 3, 3)};

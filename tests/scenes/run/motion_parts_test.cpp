@@ -54,7 +54,7 @@ TEST_CASE("a part of a step holds at most 15 degrees of a turn") {
     CHECK(motion_parts(ball_and_sheet("motion = [ { time = 0 }, { time = 0.1, rotation = [0, 0, 1, 0] } ]"), 0.05) == 6);
 }
 
-TEST_CASE("near cloth a part holds at most four thicknesses of an obstacle's way, elsewhere any") {
+TEST_CASE("near cloth a part holds at most four thicknesses of an obstacle's displacement, elsewhere any") {
     // 1 m in 0.1 s, all of it within a step of 0.2 s: 1 m / 0.02 m.
     CHECK(motion_parts(ball_and_sheet(path({0, 0.5, 0}, {0, -0.5, 0}, 0.1)), 0.2) == 50);
     // The way there and back counts, though the ends are one place.

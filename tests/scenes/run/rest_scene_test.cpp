@@ -46,7 +46,7 @@ fps = 7.0
 std::string pendulum() {
     return R"(
 duration = "rest"
-longest = 1.005
+max_duration = 1.005
 [step]
 time_step = 0.01
 scheme = "implicit_midpoint"
@@ -90,7 +90,7 @@ Ended run(const Scene& scene) {
     return ended;
 }
 
-/// With the box below instead: the end of a scene is at rest, and when.
+/// The time at which the sheet is at rest on the box; the scene has to end then.
 double time_of_rest(const std::string& more, const std::vector<Override>& overrides = {}) {
     std::vector<Override> all = {until_rest};
     all.insert(all.end(), overrides.begin(), overrides.end());
@@ -177,7 +177,8 @@ TEST_CASE("a run does not end while something is to come") {
     CHECK(time_of_rest(event + "pin = { cloth = \"sheet\", vertices = [0] }\n") > 6.5);
     CHECK(time_of_rest(event + "move = { cloth = \"sheet\", vertices = [0], to = [0.0, 0.01, 0.0], over = 1.0 }\n",
                        {{"cloth.sheet.pin", "[0]"}}) > 7.5);
-    CHECK(time_of_rest("[[seam]]\ncloths = [\"sheet\", \"sheet\"]\nvertices = [[0, 1]]\nover = 2.0\nstiffness = 0.1\n") > 2.5);
+    CHECK(time_of_rest("[[seam]]\ncloths = [\"sheet\", \"sheet\"]\nvertices = [[0, 1]]\nduration = 2.0\nstiffness = 0.1\n") >
+          2.5);
     // A keyframe that moves nothing, and one that does.
     for (const std::string height : {"-0.25", "-0.24"}) {
         CAPTURE(height);
@@ -190,7 +191,7 @@ TEST_CASE("a run does not end while something is to come") {
     }
 }
 
-TEST_CASE("a run that is not at rest at its longest duration fails and says how it moves, and which cloth") {
+TEST_CASE("a run that is not at rest at max_duration fails and says how it moves, and which cloth") {
     const Ended ended = run(scene_of(pendulum()));
     const RunResult& result = ended.result;
     const RestFigures& rest = *result.rest;
@@ -207,13 +208,14 @@ TEST_CASE("a run that is not at rest at its longest duration fails and says how 
                                   "take: cloth 'swing' moves fastest, at "));
     CHECK(result.reason.find(" m/s rms; the largest net force on one is ") != std::string::npos);
     CHECK(result.reason.find("; step.kinetic_damping = true stops what swings") != std::string::npos);
-    const std::string damped = run(scene_of(pendulum(), {{"step.kinetic_damping", "true"}, {"longest", "0.02"}})).result.reason;
+    const std::string damped =
+        run(scene_of(pendulum(), {{"step.kinetic_damping", "true"}, {"max_duration", "0.02"}})).result.reason;
     CHECK(damped.starts_with("not at rest"));
     CHECK(damped.find("kinetic_damping") == std::string::npos);
 }
 
 TEST_CASE("free fall is its own weight, and without gravity nothing is said of weight") {
-    const std::vector<Override> implicit = {until_rest, {"longest", "0.1"}, {"step.scheme", "backward_euler"}};
+    const std::vector<Override> implicit = {until_rest, {"max_duration", "0.1"}, {"step.scheme", "backward_euler"}};
     const RestFigures falling = *run(scene_of(falling_sheet(), implicit)).result.rest;
     CHECK(falling.force_over_weight == Approx(1.0).epsilon(1e-6));
     CHECK(falling.largest_speed == Approx(0.981).epsilon(1e-6));
@@ -234,15 +236,15 @@ TEST_CASE("a scene that ends at rest is resumed in the same bits, from its last 
     const std::vector<std::vector<Override>> ways = {
         {until_rest},
         {until_rest, {"output.fps", "7"}},
-        {until_rest, {"longest", "1.5"}},  // fails
-        {until_rest, {"longest", "1.5"}, {"output.fps", "7"}},
+        {until_rest, {"max_duration", "1.5"}},  // fails
+        {until_rest, {"max_duration", "1.5"}, {"output.fps", "7"}},
         {until_rest, {"step.time_step", "auto"}, {"step.tolerance", "0.01"}},
     };
     for (const std::vector<Override>& overrides : ways) {
         const Scene scene = scene_of(sheet_on_box() + event, overrides);
         const WatchedRun plain = watch(scene, {});
-        CAPTURE(scene.longest, scene.output.fps, plain.result.reason);
-        CHECK((plain.result.status == RunStatus::failed) == (scene.longest < 20.0));
+        CAPTURE(scene.max_duration, scene.output.fps, plain.result.reason);
+        CHECK((plain.result.status == RunStatus::failed) == (scene.max_duration < 20.0));
         const WatchedRun left = watch(scene, {.checkpoint_every = dt});
         CHECK(plain.hashes == left.hashes);
         CHECK(plain.report == left.report);

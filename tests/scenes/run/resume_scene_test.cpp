@@ -10,7 +10,7 @@ namespace percale::scenes::test::resume_scene_test {
 
 namespace {
 
-/// Left after every quarter of the way.
+/// Checks that a run resumes alike after every quarter of its duration.
 void check_resumes(const Scene& scene, bool certify_steps) {
     const WatchedRun plain = watch(scene, {.certify_steps = certify_steps});
     const WatchedRun left = watch(scene, {.certify_steps = certify_steps, .checkpoint_every = 0.25 * scene.duration});
@@ -24,7 +24,7 @@ void check_resumes(const Scene& scene, bool certify_steps) {
     }
 }
 
-/// Where every step is measured and where frames are.
+/// Checks it where every step is measured and where frames are.
 void check_resumes(const std::string& text, const std::vector<Override>& overrides, bool certify_steps = false) {
     for (const std::string measures : {"ledger", "auto"}) {
         CAPTURE(measures);

@@ -416,7 +416,7 @@ TEST_CASE("panels that start through each other are sewn without contact, which 
     const std::string scene =
         "duration = 0.6\ngravity = [0, 0, 0]\n[fabric.f]\narea_density = 0.2\nthickness = 0.004\nself_contact = true\n"
         "spring_damping = 0.5\nsprings = { structural = 500.0, bend = 2.0 }\n[[cloth]]\nname = \"c\"\nfabric = \"f\"\n"
-        "mesh = \"panels.obj\"\n[[seam]]\nfile = \"mesh\"\nover = 0.3\nstiffness = 500.0\n"
+        "mesh = \"panels.obj\"\n[[seam]]\nfile = \"mesh\"\nduration = 0.3\nstiffness = 500.0\n"
         "contact_while_closing = false\n[output]\nfps = 30\n";
     const std::string file = folder.write("sewn.toml", scene);
     const Recorded recorded = record(load_scene(file));

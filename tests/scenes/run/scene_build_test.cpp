@@ -104,7 +104,7 @@ TEST_CASE("a mesh is found beside the scene file and scaled by its unit") {
     CHECK_FALSE(scene.cloth_meshes.at(0).is_grid());
 }
 
-TEST_CASE("a missing mesh is told with the place of its cloth and its path") {
+TEST_CASE("a missing mesh is reported with the place of its cloth and its path") {
     const test::TestFolder folder;
     const std::string file = mesh_scene(folder, square);
     std::filesystem::remove(folder.path("cloth.obj"));
@@ -114,7 +114,7 @@ TEST_CASE("a missing mesh is told with the place of its cloth and its path") {
     CHECK(message.find("cloth.obj") != std::string::npos);
 }
 
-TEST_CASE("a mesh that no cloth can be made of is told with the place of its cloth") {
+TEST_CASE("a mesh that no cloth can be made of is reported with the place of its cloth") {
     const test::TestFolder folder;
     const auto message = [&](const std::string& obj) {
         const std::string file = mesh_scene(folder, obj);
@@ -289,7 +289,7 @@ TEST_CASE("an explicit scheme with obstacles is refused where the scheme is said
     CHECK(error_of([&] { build_scene(set); }).starts_with("--set step.scheme: step.scheme: an explicit"));
 }
 
-TEST_CASE("a name is told once, in quotes") {
+TEST_CASE("a name is said once, in quotes") {
     const test::TestFolder folder;
     const std::string flat = "[[obstacle]]\nname = \"body\"\nmesh = \"flat.obj\"\npose = { translation = [0, -5, 0] }\n";
     folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
@@ -368,7 +368,7 @@ std::string three_sheets() {
 
 }  // namespace
 
-TEST_CASE("pairs of cloths are told to the simulation, and those that say nothing are refused at their place") {
+TEST_CASE("pairs of cloths are set in the simulation, and those that say nothing are refused at their place") {
     const auto with = [](const std::string& keys) { return three_sheets() + "[[pair]]\n" + keys; };
     const BuiltScene apart = built(with("cloths = [\"b\", \"a\"]\ncontact = false\n"));
     CHECK_FALSE(apart.simulation.meets(apart.cloths[0], apart.cloths[1]));
@@ -385,7 +385,7 @@ TEST_CASE("pairs of cloths are told to the simulation, and those that say nothin
 }
 
 TEST_CASE("a seam of a scene closes from its time on") {
-    const std::string seam = "[[seam]]\ncloths = [\"a\", \"b\"]\nvertices = [[0, 0]]\nfrom = 0.05\nover = 0.05\n";
+    const std::string seam = "[[seam]]\ncloths = [\"a\", \"b\"]\nvertices = [[0, 0]]\nstart_time = 0.05\nduration = 0.05\n";
     BuiltScene scene = built(three_sheets() + seam + "[step]\ntime_step = 0.01\n");
     for (int n = 0; n < 4; ++n) REQUIRE(scene.simulation.step().ok());
     CHECK(scene.simulation.seam_gaps(scene.seams[0].id)[0] == Approx(0.1).epsilon(0.01));
@@ -393,9 +393,9 @@ TEST_CASE("a seam of a scene closes from its time on") {
     CHECK(scene.simulation.seam_gaps(scene.seams[0].id)[0] < 0.05);
 }
 
-TEST_CASE("a seam that should have closed and is open is told of with its width, one that closed or has time left is not") {
+TEST_CASE("a seam that should have closed and is open is reported with its width, one that closed or has time left is not") {
     const auto said = [](const std::string& stiffness, int steps) {
-        const std::string seam = "[[seam]]\nname = \"side\"\ncloths = [\"a\", \"b\"]\nvertices = [[0, 0]]\nover = 0.05\n";
+        const std::string seam = "[[seam]]\nname = \"side\"\ncloths = [\"a\", \"b\"]\nvertices = [[0, 0]]\nduration = 0.05\n";
         BuiltScene scene = built(three_sheets() + seam + "stiffness = " + stiffness + "\n[step]\ntime_step = 0.01\n");
         for (int n = 0; n < steps; ++n) REQUIRE(scene.simulation.step().ok());
         return seam_warnings(scene);

@@ -70,7 +70,7 @@ TEST_CASE("events after the end are warned of") {
     CHECK_THAT(warnings("0.04")[0], Catch::Contains("1 of 1 event would come after the end, 0.04 s, the first at 0.05 s"));
 }
 
-TEST_CASE("the plan tells what the start needed") {
+TEST_CASE("the plan says what the start needed") {
     CHECK(plan_text(built(sheet_on_box())).find("moved out of") == std::string::npos);
     std::string inside = sheet_on_box();
     inside.replace(inside.find("0.015"), 5, "-0.01");
@@ -106,8 +106,8 @@ TEST_CASE("a scene without obstacles has a detector only if nothing is skipped, 
     std::vector<Override> everything = implicit;
     everything.push_back({"step.skip", "false"});
     BuiltScene skipping = built(falling_sheet(), implicit), whole = built(falling_sheet(), everything);
-    CHECK(skips(skipping, "contact detection, rows, cuts and predicted positions"));
-    CHECK_FALSE(skips(whole, "contact detection, rows, cuts and predicted positions"));
+    CHECK(skips(skipping, "contact detection, contact constraints, clamps and predicted positions"));
+    CHECK_FALSE(skips(whole, "contact detection, contact constraints, clamps and predicted positions"));
     run_scene(skipping);
     run_scene(whole);
     const auto reference = whole.simulation.positions(whole.cloths[0]);
@@ -130,7 +130,7 @@ TEST_CASE("a plan says which scheme was chosen and why, and warns of steps that 
 }
 
 TEST_CASE("a plan of a scene that ends at rest says so, and how many steps that may take") {
-    const BuiltScene scene = built(sheet_on_box(), {{"duration", "rest"}, {"longest", "3"}});
+    const BuiltScene scene = built(sheet_on_box(), {{"duration", "rest"}, {"max_duration", "3"}});
     CHECK(plan_text(scene).find("until rest, at most 3 s; at most 180 steps of 0.0167 s, backward_euler") != std::string::npos);
     CHECK(nlohmann::json::parse(plan_json(scene)).at("steps") == 180);
     CHECK(nlohmann::json::parse(plan_json(scene)).at("until_rest") == true);

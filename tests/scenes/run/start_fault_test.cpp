@@ -18,7 +18,7 @@ TEST_CASE("the triangles concerned are those that cross and those with a corner 
     CHECK(offending_triangles({}, make_sphere(0.3, 2)).triangles.empty());
 }
 
-TEST_CASE("a move is told in one line") {
+TEST_CASE("a move is reported in one line") {
     const StartMove move{
         .cloth = 0, .obstacle = 0, .cloth_name = "sheet", .obstacle_name = "ball", .vertices_moved = 12, .largest_move = 0.0213};
     CHECK(start_move_text(move) == "12 vertices of sheet moved out of ball before the start, the farthest by 0.0213 m");

@@ -7,7 +7,7 @@
 namespace percale::scenes::test::mannequin_parts_test {
 namespace {
 
-/// Distance to the hull of two spheres: the least over the spheres between, which grow evenly from the first to the second.
+/// Distance to the hull of two spheres: the minimum over the spheres between, which grow evenly from the first to the second.
 double swept_distance(const BodyPart& part, const Vec3& point) {
     double least = 1e9;
     for (int k = 0; k <= 20000; ++k) {

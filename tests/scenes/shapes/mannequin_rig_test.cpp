@@ -157,7 +157,7 @@ TEST_CASE("the root moves everything as a rigid body") {
     CHECK(largest_difference(posed, moved) < 1e-13);
 }
 
-TEST_CASE("a bent elbow moves the forearm beyond its zone as a rigid body, and nothing before it") {
+TEST_CASE("a bent elbow moves the forearm beyond its transition as a rigid body, and nothing before it") {
     MannequinPose pose;
     pose.rotations[joint::elbow] = turn({1, 1, 0}, 65.0);
     const std::vector<Vec3> posed = pose_mannequin(rig(), pose);

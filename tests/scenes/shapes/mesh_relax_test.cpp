@@ -8,7 +8,7 @@
 namespace percale::scenes::test::mesh_relax_test {
 namespace {
 
-/// A flat grid whose inner vertices are shaken by up to a share of its cells.
+/// A flat grid whose inner vertices are shaken by up to a fraction of its cells.
 TriangleMesh shaken_grid(int vertices, double share) {
     TriangleMesh mesh = make_grid(1.0, 1.0, vertices, vertices);
     std::mt19937_64 random(11);

@@ -25,7 +25,7 @@ std::set<int> rim_of(const TriangleMesh& mesh) {
     return rim;
 }
 
-/// 0 on the hole's ellipse.
+/// A function that is 0 on the hole's ellipse.
 double off_hole(const PonchoShape& s, const Vec3& x) {
     return std::hypot(2.0 * x[0] / s.hole_width, 2.0 * x[2] / s.hole_depth) - 1.0;
 }

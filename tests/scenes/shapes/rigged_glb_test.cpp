@@ -63,7 +63,7 @@ void check_bounds(const Json& root, std::size_t accessor) {
     CHECK(root["accessors"][accessor]["max"].get<std::vector<double>>() == std::vector<double>(highest.begin(), highest.end()));
 }
 
-/// Of length 1, each less than half a turn from the one before.
+/// Rotations have length 1, and each is less than half a turn from the one before.
 void check_rotations(const std::vector<std::vector<float>>& keys) {
     const auto product = [](const std::vector<float>& a, const std::vector<float>& b) {
         return double(a[0]) * b[0] + double(a[1]) * b[1] + double(a[2]) * b[2] + double(a[3]) * b[3];
@@ -90,7 +90,7 @@ Matrix matrix(const aiMatrix4x4& m) {
     return result;
 }
 
-/// Where a time (in ticks) lies among keys: the key before it and the share of the way to the next.
+/// Where a time (in ticks) lies among keys: the key before it and the fraction of the way to the next.
 template <class Key>
 std::pair<unsigned, double> place_among(const Key* keys, unsigned count, double time) {
     unsigned k = 0;

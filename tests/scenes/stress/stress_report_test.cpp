@@ -34,7 +34,7 @@ TEST_CASE("The summary counts verdicts and failures scheme by scheme") {
     CHECK(std::count(text.begin(), text.end(), '\n') == 3);
 }
 
-TEST_CASE("Failures are told with the number of their cell, as many as asked for") {
+TEST_CASE("Failures are reported with the number of their cell, as many as asked for") {
     CHECK(stress_failures(small_run(), 10).find("cell 1: rk4, 0.1 s, 1e+02 N/m") == 0);
     CHECK(stress_failures(small_run(), 10).find("cell 3: tr_bdf2") != std::string::npos);
     CHECK(stress_failures(small_run(), 1).find("cell 3") == std::string::npos);

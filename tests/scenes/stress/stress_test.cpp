@@ -10,9 +10,9 @@ namespace percale::scenes::test::stress_test {
 TEST_CASE("Cells are run in their order, and again give the same figures") {
     const std::vector<StressCell> cells = {{.scheme = Scheme::rk4, .time_step = 1e-4, .stiffness = 1.0},
                                            {.scheme = Scheme::backward_euler, .time_step = 1.0, .stiffness = 1e6}};
-    int told = 0;
+    int reported = 0;
     const StressRun run = stress_cells(cells, 4, {.stop_asked = never_stop, .progress = [&](int made, int all) {
-                                                      CHECK(made == ++told);
+                                                      CHECK(made == ++reported);
                                                       CHECK(all == 2);
                                                   }});
     REQUIRE(run.rows.size() == 2);
@@ -49,9 +49,9 @@ TEST_CASE("A scene is run with every scheme, step and factor, each at most so ma
     CHECK(run.failures() == 0);
 }
 
-TEST_CASE("A scene that ends at rest is run with every scheme for its longest duration") {
+TEST_CASE("A scene that ends at rest is run with every scheme for its max_duration") {
     std::string text = falling_sheet();
-    text.replace(text.find("0.1"), 3, "\"rest\"\nlongest = 0.1");
+    text.replace(text.find("0.1"), 3, "\"rest\"\nmax_duration = 0.1");
     const SceneStress settings{.schemes = {"rk4", "backward_euler"}, .time_steps = {0.05}, .factors = {1.0}, .steps = 5};
     const StressRun run = stress_scene(source_of(text), settings, {.stop_asked = never_stop, .progress = {}});
     REQUIRE(run.rows.size() == 2);

@@ -6,7 +6,7 @@
 
 namespace percale::scenes::test::draws_test {
 
-TEST_CASE("a seed gives the same numbers everywhere: the engine's tenth thousandth is laid down, shares are its upper bits") {
+TEST_CASE("a seed gives the same numbers everywhere: the engine's 10,000th is in the standard, fractions are its upper bits") {
     std::mt19937_64 engine;  // seed 5489; its 10,000th value is in the C++ standard
     for (int i = 1; i < 10000; ++i) engine();
     CHECK(engine() == 9981545732273789042ull);

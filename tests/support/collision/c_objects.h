@@ -9,7 +9,7 @@
 #include "percale/mesh.h"
 #include "tests/support/catch.h"
 
-// Objects of the C interface that free themselves, and calls that have to go well.
+// Objects of the C interface that free themselves, and calls that must succeed.
 namespace percale::test {
 
 template <auto destroy>
@@ -25,7 +25,7 @@ using CFabric = std::unique_ptr<percale_fabric, Freed<percale_destroy_fabric>>;
 using CMesh = std::unique_ptr<percale_mesh, Freed<percale_destroy_mesh>>;
 using Options = std::vector<std::pair<const char*, const char*>>;
 
-/// A call that has to go well.
+/// A call that must succeed.
 inline void well(percale_status status) {
     INFO(percale_last_error(nullptr));
     REQUIRE(status == PERCALE_OK);
@@ -38,7 +38,7 @@ Struct c_struct(percale_status (*init)(Struct*, std::size_t)) {
     return made;
 }
 
-/// Without knowing that it is a grid.
+/// The mesh without its grid.
 inline CMesh c_mesh(const TriangleMesh& mesh) {
     percale_mesh* made = nullptr;
     well(percale_create_mesh(mesh.vertices[0].data(), mesh.vertices.size(), mesh.triangles[0].data(), mesh.triangles.size(),
@@ -124,7 +124,7 @@ inline std::vector<char> c_saved(const percale_simulation* simulation) {
     return bytes;
 }
 
-/// A call that has to fail: its status, and that the error's text names the function and holds `part`.
+/// A call that must fail: its status, and that the error's text names the function and contains `part`.
 inline void fails(percale_status status, percale_status expected, const std::string& function, const std::string& part) {
     const std::string text = percale_last_error(nullptr);
     INFO(function << ": " << text);

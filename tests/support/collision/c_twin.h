@@ -20,10 +20,10 @@ inline std::unique_ptr<ContactDetector> cpp_detector(const std::string& word) {
     return nullptr;
 }
 
-/// The same simulation made twice, by calls of C++ and of C that differ in nothing.
+/// The same simulation made twice, by equivalent calls of C++ and of C.
 class Twin {
 public:
-    /// `settings` and `options` say the same.
+    /// `settings` and `options` have the same values.
     Twin(const char* detector, const StepSettings& settings, const Options& options)
         : cpp_(settings, cpp_detector(detector)), c_(c_simulation(detector, options)) {}
 
@@ -40,11 +40,11 @@ public:
     struct Cloth {
         TriangleMesh mesh;
         Fabric fabric;
-        Options options;  // say the same as fabric
+        Options options;  // the same values as fabric
         Pose pose;
         RestShape rest;
     };
-    /// `settings` say the same as pose and rest.
+    /// `settings` have the same values as pose and rest.
     int add_cloth_as(const Cloth& cloth, const percale_cloth_settings& settings) {
         percale_mesh* grid = nullptr;
         if (cloth.mesh.is_grid()) {
@@ -96,7 +96,7 @@ public:
         well(percale_deform_obstacle(c(), obstacle, end[0].data(), end.size()));
     }
 
-    /// One step of both; their reports and the state's bits have to agree.
+    /// One step of both; their reports and the state's bits must agree.
     void step() {
         const StepReport report = cpp_.step();
         auto same = c_struct(percale_init_step_report);

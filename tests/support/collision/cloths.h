@@ -10,7 +10,7 @@
 
 namespace percale::test {
 
-/// Several cloths as one mesh, with what a detector needs to know of their vertices.
+/// Several cloths as one mesh, with the data of their vertices that a detector needs.
 struct Cloths {
     TriangleMesh mesh;  // at rest
     std::vector<int> cloth;
@@ -24,7 +24,7 @@ struct Cloths {
         friction.resize(mesh.vertices.size(), 0.1 * (number + 1));
     }
     SelfContact self_contact() const { return {.cloth = cloth, .rest = mesh.vertices, .friction = friction}; }
-    /// No cloth crosses or touches cloth at these places.
+    /// Whether no cloth crosses or touches cloth at these places.
     bool clean(const std::vector<Vec3>& x) const {
         const ClothCertificate certificate = certify_cloth({.vertices = x, .triangles = mesh.triangles});
         return certificate.crossing.empty() && certificate.touching.empty();

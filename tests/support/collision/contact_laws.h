@@ -6,15 +6,15 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/backends.h"
 
-// What laws of contact are tried with.
+// The setup of tests of contact laws.
 namespace percale::test {
 
-/// With the last backend of this build.
+/// A simulation with the last backend of this build.
 inline Simulation simulation_on_meshes(const StepSettings& settings) {
     return Simulation(settings, backends().back().make_detector());
 }
 
-/// A step that has to be accepted.
+/// Makes a step that must be accepted.
 inline StepReport step_well(Simulation& simulation) {
     const StepReport report = simulation.step();
     CAPTURE(report.explanation());

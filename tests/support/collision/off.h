@@ -10,7 +10,7 @@
 
 namespace percale::test {
 
-/// The triangles of an OFF file; nothing if there is no such file or it is cut short.
+/// The triangles of an OFF file; nothing if there is no such file or it is truncated.
 inline std::optional<TriangleMesh> read_off(const std::filesystem::path& path) {
     std::ifstream file(path);
     std::string magic;

@@ -59,7 +59,7 @@ inline std::vector<ListedPair> listed_pairs(const ClusterList& list, const Obsta
     return pairs;
 }
 
-/// What tells pairs of one obstacle apart, whichever way round a cloth edge or triangle is named.
+/// The identity of pairs of one obstacle, whichever way round a cloth edge or triangle is named.
 using PairKey = std::tuple<int, std::set<int>, int, int>;
 inline PairKey key(const ContactPair& pair) {
     return {

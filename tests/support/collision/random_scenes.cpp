@@ -109,19 +109,19 @@ NamedMesh random_obstacle(Random& random) {
         case 18:
             return {"jaws", make_box({0.4, jaw_height, 0.4})};
         default:
-            // Where none is installed only these scenes are others.
+            // Without scans only these scenes differ.
             if (scans().empty()) return {"sphere", make_sphere(size, 3)};
             return scans()[static_cast<std::size_t>(random.index(static_cast<int>(scans().size())))];
     }
 }
 
-/// Straight from where it is, at a speed in m/s, from t = 0 on.
+/// Moves it straight from where it is, at a speed in m/s, from t = 0 on.
 void translate(ObstacleSpec& spec, const Vec3& velocity) {
     spec.motion = {Keyframe{.time = 0.0, .translation = spec.pose.translation, .rotation = {}},
                    Keyframe{.time = 10.0, .translation = spec.pose.translation + 10.0 * velocity, .rotation = {}}};
 }
 
-/// Gives the obstacle a motion, rather towards the cloth at the origin, and says which.
+/// Gives the obstacle a motion, rather towards the cloth at the origin, and names it.
 std::string set_random_motion(ObstacleSpec& spec, Random& random) {
     const Vec3 aim = (0.3 * random.unit() - spec.pose.translation).normalized(), axis = random.unit();
     const double speed = random.decades(0.1, 3.0), turns = random.decades(0.1, 5.0);
@@ -173,7 +173,7 @@ std::string pin_some(scenes::BuiltScene& built, Random& random) {
     const std::vector<Vec3>& vertices = built.cloth_meshes[0].vertices;
     built.simulation.pin(built.cloths[0], 0);
     if (kind == 1) return "one pin";
-    // The rest mesh before its pose lies in a plane; vertices are told apart by their distance from the first edge's middle.
+    // The rest mesh before its pose lies in a plane; vertices are distinguished by their distance from the first edge's middle.
     const Vec3 first = vertices[0];
     for (std::size_t i = 1; i < vertices.size(); ++i) {
         if ((vertices[i] - first).norm() < 0.1) built.simulation.pin(built.cloths[0], static_cast<int>(i));
@@ -181,7 +181,7 @@ std::string pin_some(scenes::BuiltScene& built, Random& random) {
     return "a pinned corner";
 }
 
-/// Everything of a scene but where the obstacle is.
+/// Everything of a scene except the place of the obstacle.
 struct Draw {
     NamedMesh cloth, obstacle;
     std::optional<TriangleMesh> other_cloth;  // of the same fabric
@@ -243,18 +243,18 @@ Draw draw_scene(Random& random, int index) {
     draw.detector = random_detectors[turn % random_detectors.size()];
     draw.settings.contact_response = random_responses[turn / random_detectors.size() % random_responses.size()];
     draw.settings.measure = StepMeasures::none;
-    draw.settings.start = StartRule::refuse;  // cloth is taken farther away, not taken apart
+    draw.settings.start = StartRule::refuse;  // cloth is placed farther away, not untangled
     const TriangleMesh flat = draw.cloth.mesh;
     const Pose pose = random.pose(0.0);
     draw.cloth.mesh = placed(flat, pose);
     draw.spec.name = draw.obstacle.name;
     draw.spec.friction = random.index(4) == 0 ? 0.0 : random.number(0.05, 2.0);
     draw.fabric.self_contact = random.index(4) == 0;
-    Random of_other = random;  // what follows is drawn the same without it
+    Random of_other = random;  // later draws are the same without it
     if (draw.fabric.self_contact && of_other.index(2) == 0)
         draw.other_cloth = placed(moved(flat, {0.0, draw.fabric.thickness * of_other.number(1.0, 8.0), 0.0}), pose);
     draw.settings.gravity = {0.0, -(random.index(3) == 0 ? random.number(0.0, 40.0) : 9.81), 0.0};
-    // Projection takes backward Euler alone, of one length.
+    // Projection supports only backward Euler with steps of one length.
     if (draw.settings.contact_response == ContactResponse::penalty) {
         if (random.index(3) == 0) draw.settings.scheme = Scheme::tr_bdf2;
         draw.settings.adaptive = random.index(6) == 0;
@@ -262,7 +262,7 @@ Draw draw_scene(Random& random, int index) {
     return draw;
 }
 
-/// Another one above the obstacle, in its axes, that comes down on it within the scene.
+/// Another obstacle above it, in its axes, that comes down on it within the scene.
 ObstacleSpec closing_jaw(const ObstacleSpec& below, Random& random) {
     ObstacleSpec jaw = below;
     jaw.name = "jaw";
@@ -275,7 +275,7 @@ ObstacleSpec closing_jaw(const ObstacleSpec& below, Random& random) {
     return jaw;
 }
 
-/// The obstacle as near as it may start, at a random place around the cloth.
+/// Places the obstacle as near as it may start, at a random place around the cloth.
 scenes::BuiltScene build_clear(Draw& draw, std::string& motion, Random& random) {
     for (double reach = 0.05;; reach += 0.02) {
         const Vec3 way = random.unit();

@@ -7,7 +7,7 @@
 #include "tests/support/collision/shapes.h"
 #include "tests/support/collision/steps.h"
 
-// A sheet and obstacles that detectors are tried on.
+// A sheet and obstacles for tests of detectors.
 namespace percale::test {
 
 inline constexpr double sheet_thickness = 0.03;
@@ -45,7 +45,7 @@ inline void set_poses(Steps& steps, bool moving, Random& random) {
         o.start = random.pose(0.05);
         o.end = moving ? turned_further(o.start, 0.05, random) : o.start;
     }
-    if (steps.detector) steps.tell_poses();
+    if (steps.detector) steps.report_poses();
 }
 
 inline Steps make_steps(Scene scene, const TriangleMesh& cloth, const Backend& backend) {

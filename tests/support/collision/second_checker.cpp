@@ -54,8 +54,8 @@ int shared_first(Triangle& a, Triangle& b) {
     return shared;
 }
 
-/// Whether faces of one mesh meet where they have to share nothing. Those with one common corner meet beyond it only where the
-/// opposite edge of one meets the other; those with a common edge, where they are folded onto each other.
+/// Whether faces of one mesh meet beyond what they share. Those with one common corner meet beyond it only where the opposite
+/// edge of one meets the other; those with a common edge, where they are folded onto each other.
 bool meet_within(const TriangleMesh& mesh, const Face& first, const Face& second) {
     Triangle a = first.corners, b = second.corners;
     const auto point = [&mesh](int vertex) {

@@ -10,8 +10,8 @@ namespace percale::test {
 /// or themselves.
 using SecondChecker = std::function<long(const scenes::Frame&)>;
 
-/// By CGAL's boxes and exact predicates, which share nothing with the certificate; empty where the tests were built without CGAL.
-/// Triangles without area are left out, and so are pairs of one cloth that share an edge, unless they lie on each other.
+/// A checker by CGAL's boxes and exact predicates, independent of the certificate; empty where the tests were built without
+/// CGAL. Triangles without area are left out, and so are pairs of one cloth that share an edge, unless they lie on each other.
 SecondChecker cgal_checker();
 
 }  // namespace percale::test

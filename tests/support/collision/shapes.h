@@ -82,8 +82,8 @@ inline TriangleMesh spiky_ball(double radius, int level, double amplitude, unsig
     return ball;
 }
 
-/// A ball whose vertices are moved anywhere by up to `amplitude` along each axis: closed, goes through itself, and is inside out
-/// in places.
+/// A ball whose vertices are moved anywhere by up to `amplitude` along each axis: closed, self-intersecting, and inside out in
+/// places.
 inline TriangleMesh tangled_ball(double radius, int level, double amplitude, unsigned seed) {
     TriangleMesh ball = make_sphere(radius, level);
     Random random(seed);
@@ -137,7 +137,7 @@ inline TriangleMesh pierced_ball(double radius, Random& random) {
     return ball;
 }
 
-/// A tube that is bent over so far that it goes through itself, closed at both ends.
+/// A tube that is bent so far that it intersects itself, closed at both ends.
 inline TriangleMesh bent_tube(Random& random) {
     TriangleMesh tube = make_capsule(0.08, 0.6, 12);
     const double bend = random.number(4.0, 9.0), shift = random.number(-0.06, 0.06);

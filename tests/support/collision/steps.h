@@ -18,12 +18,12 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-/// The same rows in the same order to the last bit.
-inline bool same_rows(const ContactRows& a, const ContactRows& b) {
+/// The same constraints in the same order to the last bit.
+inline bool same_constraints(const ContactConstraints& a, const ContactConstraints& b) {
     return same_bits(a.vertex, b.vertex) && same_bits(a.weight, b.weight) && same_bits(a.direction, b.direction) &&
            same_bits(a.obstacle_point, b.obstacle_point) && same_bits(a.obstacle_displacement, b.obstacle_displacement) &&
            same_bits(a.distance, b.distance) && same_bits(a.thickness, b.thickness) && same_bits(a.friction, b.friction) &&
-           same_bits(a.share, b.share) && a.obstacle == b.obstacle && a.feature == b.feature;
+           same_bits(a.mollifier, b.mollifier) && a.obstacle == b.obstacle && a.feature == b.feature;
 }
 
 inline std::vector<Vec3> between(std::span<const Vec3> from, std::span<const Vec3> to, double fraction) {
@@ -32,7 +32,7 @@ inline std::vector<Vec3> between(std::span<const Vec3> from, std::span<const Vec
     return x;
 }
 
-/// A mesh on its way from one pose to another within a step: vertices run straight.
+/// A mesh on its way from one pose to another within a step: vertices move straight.
 struct MovingMesh {
     TriangleMesh mesh;
     Pose start, end;
@@ -48,7 +48,7 @@ struct MovingMesh {
     }
 };
 
-/// Cloth and obstacles in steps, each move cut by a detector.
+/// Cloth and obstacles in steps, each move clamped by a detector.
 struct Steps {
     TriangleMesh cloth;
     std::vector<MovingMesh> obstacles;
@@ -60,9 +60,9 @@ struct Steps {
         detector->set_cloth(cloth.triangles, all);
         for (std::size_t i = 0; i < obstacles.size(); ++i)
             detector->add_obstacle(obstacles[i].mesh, obstacles[i].start, 0.1 * double(i));
-        tell_poses();
+        report_poses();
     }
-    void tell_poses() {
+    void report_poses() {
         for (std::size_t i = 0; i < obstacles.size(); ++i) {
             detector->move_obstacle(static_cast<int>(i), obstacles[i].start, obstacles[i].end);
         }

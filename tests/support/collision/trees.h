@@ -9,7 +9,7 @@
 #include "tests/support/collision/shapes.h"
 #include "tests/support/random.h"
 
-// What every tree has to obey.
+// Laws that every tree must satisfy.
 namespace percale::test {
 
 inline std::vector<Box> boxes_of(const TriangleMesh& mesh) {
@@ -45,12 +45,12 @@ inline std::vector<int> filtered(const IdLists& found, int i, const Box& asked, 
     return ids;
 }
 
-/// Asks a tree over `mesh` and compares with a plain scan of all boxes. Returns how many triangles were found.
+/// Queries a tree over `mesh` and compares with a plain scan of all boxes. Returns how many triangles were found.
 inline long check_tree(TreeFactory make_tree, const TriangleMesh& mesh, std::span<const Box> asked) {
     const std::vector<Box> boxes = boxes_of(mesh);
     const auto tree = make_tree(mesh.vertices, mesh.triangles);
     IdLists found;
-    found.ids = {7, 7, 7};  // what was there before must not matter
+    found.ids = {7, 7, 7};  // earlier contents must not matter
     found.start = {0, 3};
     tree->find(asked, found);
     REQUIRE(found.start.size() == asked.size() + 1);
@@ -91,7 +91,7 @@ inline void check_tree_laws(TreeFactory make_tree) {
     CHECK(check_tree(make_tree, ball, std::vector<Box>{corner}) >= 5);
 }
 
-/// Trees over triangles that no split of centres tells apart.
+/// Trees over triangles whose centres no split separates.
 inline void check_degenerate_trees(TreeFactory make_tree) {
     Random random(21);
     TriangleMesh same_centre, same_place, lopsided, halving;

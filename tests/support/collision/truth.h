@@ -47,7 +47,7 @@ inline double true_edge_edge(const Vec3& p_, const Vec3& q_, const Vec3& a_, con
     return static_cast<double>(least);
 }
 
-/// Least distance of two triangles that do not cross.
+/// Smallest distance of two triangles that do not cross.
 inline double true_triangle_triangle(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 3; ++i) {
@@ -61,7 +61,7 @@ inline std::array<Vec3, 3> corners_of(const TriangleMesh& mesh, const Triangle& 
     return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
 }
 
-/// Least distance of two meshes that do not cross.
+/// Smallest distance of two meshes that do not cross.
 inline double true_mesh_distance(const TriangleMesh& cloth, const TriangleMesh& obstacle) {
     double least = std::numeric_limits<double>::infinity();
     for (const Triangle& t : cloth.triangles) {

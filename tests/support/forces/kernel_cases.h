@@ -10,7 +10,7 @@ namespace percale::test {
 
 constexpr double kernel_dt = 1.0 / 60.0, kernel_alpha = 0.37, kernel_beta = -0.61;
 
-/// What a kernel wrote, array by array, and what it returned.
+/// Output of a kernel, array by array, and its return value.
 struct Result {
     std::vector<std::vector<double>> arrays;
     double sum = 0.0;
@@ -19,14 +19,14 @@ struct Result {
     void add(const List& list) {
         arrays.emplace_back(list.begin(), list.end());
     }
-    void add(const Vectors& vectors) {
+    void add(const Vec3Arrays& vectors) {
         for (const auto* axis : {&vectors.x, &vectors.y, &vectors.z}) add(*axis);
     }
 };
 
 using Ranges = std::vector<Slices>;
 
-/// A kernel, run over ranges of slices, and the same written plainly.
+/// A kernel, run over ranges of slices, and a plain implementation.
 struct Case {
     const char* name;
     double tolerance;  // relative to the largest number of each array
@@ -42,7 +42,7 @@ inline std::vector<const Kernels*> available() {
     return list;
 }
 
-inline AlignedVector<double> packed(const Vectors& from) {
+inline AlignedVector<double> packed(const Vec3Arrays& from) {
     AlignedVector<double> points;
     for (std::size_t i = 0; i < from.padded_size(); ++i) points.insert(points.end(), {from.x[i], from.y[i], from.z[i], 0.0});
     return points;
@@ -56,7 +56,7 @@ inline AlignedVector<float> packed(const KernelProblem& problem, const AlignedVe
     return points;
 }
 
-inline ConstAxes view(const Vectors& vectors) { return vectors.axes(); }
+inline ConstAxes view(const Vec3Arrays& vectors) { return vectors.axes(); }
 
 /// Floats of a kernel's result, one 3-vector a vertex.
 struct FloatResult {
@@ -222,24 +222,24 @@ inline Case advance_case() {
     return {"advance and turn", 1e-12,
             [](const Kernels& kernels, KernelProblem p, const Ranges& ranges) {
                 Result result;
-                Vectors r = p.v;
+                Vec3Arrays r = p.v;
                 for (const Slices range : ranges) {
                     result.sum += kernels.advance(kernel_alpha, view(p.v), view(p.y), p.x.axes(), r.axes(), range);
                     kernels.turn(kernel_beta, view(r), p.y.axes(), range);
                 }
-                for (const Vectors* vectors : {&p.x, &r, &p.y}) result.add(*vectors);
+                for (const Vec3Arrays* vectors : {&p.x, &r, &p.y}) result.add(*vectors);
                 return result;
             },
             [](KernelProblem p) {
                 Result result;
-                Vectors r = p.v;
+                Vec3Arrays r = p.v;
                 for_vertices(p, [&](int i) {
                     p.x.add(i, kernel_alpha * p.v.at(i));
                     r.add(i, -kernel_alpha * p.y.at(i));
                     result.sum += r.at(i).squaredNorm();
                     p.y.set(i, r.at(i) + kernel_beta * p.y.at(i));
                 });
-                for (const Vectors* vectors : {&p.x, &r, &p.y}) result.add(*vectors);
+                for (const Vec3Arrays* vectors : {&p.x, &r, &p.y}) result.add(*vectors);
                 return result;
             }};
 }
@@ -312,10 +312,10 @@ inline Case float_advance_case() {
             [](const Kernels& kernels, KernelProblem p, const Ranges& ranges) {
                 FloatResult q(p);
                 std::copy(p.blocks.begin(), p.blocks.begin() + static_cast<std::ptrdiff_t>(q.data.size()), q.data.begin());
-                const auto view = [&](AlignedVector<float>& list) { return FloatVectors{list.data(), p.padded}; };
+                const auto view = [&](AlignedVector<float>& list) { return FloatVec3Arrays{list.data(), p.padded}; };
                 Result result;
                 for (const Slices range : ranges) {
-                    const FloatVectors direction = view(p.float_y), r = view(p.float_r);
+                    const FloatVec3Arrays direction = view(p.float_y), r = view(p.float_r);
                     result.sum += kernels.float_advance(0.37f, direction, view(q.data), view(p.float_x), r, range);
                     kernels.float_turn(-0.61f, r, direction, range);
                 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/kernels/kernels.h"
-#include "engine/model/vectors.h"
+#include "engine/model/vec3_arrays.h"
 #include "engine/support/aligned.h"
 #include "tests/support/random.h"
 
@@ -19,7 +19,7 @@ struct KernelProblem {
     AlignedVector<int> other;
     AlignedVector<double> stiffness, rest_length, damping;  // of entries
     AlignedVector<float> quads, sixes, weights;             // four, six and one number an entry
-    Vectors x, v, y;
+    Vec3Arrays x, v, y;
     AlignedVector<double> ground, free;
     AlignedVector<float> float_x, float_y, float_r, blocks;  // three, three, three and six arrays
 

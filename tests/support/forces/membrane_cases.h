@@ -22,16 +22,16 @@ inline Fabric moduli_fabric(double warp, double weft, std::optional<double> shea
 /// Woven: all four moduli differ.
 inline Fabric woven_fabric() { return moduli_fabric(200.0, 120.0, 15.0, 0.25); }
 
-/// A model in a state, with what its springs and triangles do there.
+/// A model in a state, with the forces and energies of its springs and triangles there.
 struct Strained {
     static constexpr double dt = 1.0 / 60.0;
 
     ClothModel model;
-    Vectors positions, velocities, forces;
+    Vec3Arrays positions, velocities, forces;
     SpringTerms terms;
     double energy = 0.0;
 
-    Strained(ClothModel cloth, const std::vector<Vec3>& places) : model(std::move(cloth)), positions(to_vectors(places)) {
+    Strained(ClothModel cloth, const std::vector<Vec3>& places) : model(std::move(cloth)), positions(to_vec3_arrays(places)) {
         velocities.resize(model.vertex_count());
         evaluate(compute);
     }
@@ -46,9 +46,9 @@ struct Strained {
         energy += evaluate_membrane(with, model.adjacency, {positions, velocities, dt}, true, forces, terms);
     }
 
-    double energy_at(const Vectors& places) const { return membrane_energy(model.membrane, places); }
+    double energy_at(const Vec3Arrays& places) const { return membrane_energy(model.membrane, places); }
 
-    /// -dt^2 Jq as the solver sees it, without masses.
+    /// -dt^2 Jq as in the solver, without masses.
     Eigen::MatrixXd matrix() const {
         BlockMatrix block;
         set_pattern(compute, model.adjacency, model.mass, block);
@@ -56,7 +56,7 @@ struct Strained {
         const int count = model.vertex_count();
         Eigen::MatrixXd dense(3 * count, 3 * count);
         AlignedVector<double> points;
-        Vectors y;
+        Vec3Arrays y;
         y.resize(count);
         for (int k = 0; k < 3 * count; ++k) {
             multiply(block, from_dense(Eigen::VectorXd::Unit(3 * count, k)), points, y);

@@ -10,7 +10,7 @@
 
 namespace percale::test {
 
-/// The step matrix of cloth in some state, mostly a square sheet, 1 m a side: what one linear solve of a step works on.
+/// The step matrix of cloth in some state, mostly a square sheet, 1 m a side: the system of one linear solve of a step.
 struct SheetSystem {
     static constexpr double dt = 1.0 / 60.0;
 
@@ -19,7 +19,7 @@ struct SheetSystem {
     std::vector<CoupledBlock> contacts;
     SpringTerms terms;
     BlockMatrix matrix;
-    Vectors right;  // dt f, kg m/s
+    Vec3Arrays right;  // dt f, kg m/s
 
     /// Stretched along its axes, then vertices moved at random by up to `noise` times their distance; two corners pinned.
     SheetSystem(unsigned seed, int side, double noise, const Vec3& stretch = Vec3::Ones())
@@ -33,7 +33,7 @@ struct SheetSystem {
         : random(seed), model(std::move(cloth)) {
         std::vector<Vec3> places = model.rest;
         for (Vec3& x : places) x = x.cwiseProduct(stretch) + random.point(reach);
-        const Vectors positions = to_vectors(places), start = to_vectors(model.rest);
+        const Vec3Arrays positions = to_vec3_arrays(places), start = to_vec3_arrays(model.rest);
         StepSprings springs;
         set_step_springs(compute, {model.adjacency, start, DampingForm::length_rate, dt}, springs);
         right.resize(model.vertex_count());
@@ -66,11 +66,11 @@ struct SheetSystem {
     }
 
     /// Contacts along random directions, stiffer than the vertex's own block by a random factor.
-    void touch_share(double share, double least_factor, double most_factor) {
+    void add_contacts(double share, double min_factor, double max_factor) {
         for (int i = 0; i < count(); ++i) {
             if (random.number(0.0, 1.0) >= share) continue;
             const double size = matrix.diagonal[0][i] + matrix.diagonal[3][i] + matrix.diagonal[5][i];
-            const double stiffness = random.decades(least_factor, most_factor) * size / 3.0;
+            const double stiffness = random.decades(min_factor, max_factor) * size / 3.0;
             const Vec3 n = random.unit();
             CoupledBlock block{.vertex = {i, -1, -1, -1}, .weight = {1.0, 0.0, 0.0, 0.0}, .k = {}};
             block.k = along(n, stiffness);
@@ -92,7 +92,7 @@ struct SheetSystem {
     }
 
     /// Contacts between parts of the cloth, each of one vertex and three others somewhere, along random directions.
-    void touch_itself(int rows, double factor) {
+    void add_self_contacts(int rows, double factor) {
         for (int row = 0; row < rows; ++row) {
             const Vec3 n = random.unit();
             const auto any = [&] { return random.index(count()); };
@@ -106,15 +106,15 @@ struct SheetSystem {
         fill();
     }
 
-    Vectors zeros() const {
-        Vectors x;
+    Vec3Arrays zeros() const {
+        Vec3Arrays x;
         x.resize(count());
         return x;
     }
 
     /// Random on the free vertices, 0 at the others and in the padding.
-    Vectors random_vector() {
-        Vectors x = zeros();
+    Vec3Arrays random_vector() {
+        Vec3Arrays x = zeros();
         for (int i = 0; i < count(); ++i) {
             const Vec3 value = random.point(1.0);
             if (matrix.free[i] > 0.0) x.set(i, value);
@@ -123,9 +123,9 @@ struct SheetSystem {
     }
 
     /// |b - A x| on the free vertices.
-    double residual(const Vectors& b, const Vectors& x) const {
+    double residual(const Vec3Arrays& b, const Vec3Arrays& x) const {
         AlignedVector<double> points;
-        Vectors product = x, rest = b;
+        Vec3Arrays product = x, rest = b;
         multiply(matrix, x, points, product);
         filter(matrix, rest);
         add_scaled(rest, -1.0, product);
@@ -133,15 +133,15 @@ struct SheetSystem {
     }
 
     /// sqrt(x . A x)
-    double energy_norm(const Vectors& x) const {
+    double energy_norm(const Vec3Arrays& x) const {
         AlignedVector<double> points;
-        Vectors product = x;
+        Vec3Arrays product = x;
         return std::sqrt(multiply(matrix, x, points, product));
     }
 };
 
-inline Vectors difference(const Vectors& a, const Vectors& b) {
-    Vectors result = a;
+inline Vec3Arrays difference(const Vec3Arrays& a, const Vec3Arrays& b) {
+    Vec3Arrays result = a;
     add_scaled(result, -1.0, b);
     return result;
 }

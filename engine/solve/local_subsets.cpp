@@ -1,0 +1,112 @@
+#include "local_subsets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "line_search.h"
+#include "support/deadline.h"
+#include "support/stage_timer.h"
+#include "tolerances.h"
+
+namespace percale {
+namespace {
+
+/// Sets |r_i|^2/m_i of each vertex of bodies that are not settled, 0 of others; returns the sum.
+double set_squares(const StageEquations& equations, std::vector<double>& squares) {
+    const ClothModel& model = equations.stage().scene.model;
+    const NewtonSpace& space = equations.space();
+    squares.assign(model.vertex_count(), 0.0);
+    double sum = 0.0;
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+        if (space.bodies.settled(b)) continue;
+        const Body& body = model.bodies[b];
+        for (int i = body.first; i < body.first + body.count; ++i) {
+            squares[i] = square_at(space.current.residual, i) / model.mass[i];
+            sum += squares[i];
+        }
+    }
+    return sum;
+}
+
+/// Sets `vertices` to the few that hold most of the residual; false where few do not.
+bool choose_vertices(double sum, SubsetSpace& space) {
+    const int count = static_cast<int>(space.squares.size());
+    const int max = std::min(count, std::max(few_subset_vertices, static_cast<int>(max_subset_vertices * count)));
+    space.order.resize(count);
+    std::iota(space.order.begin(), space.order.end(), 0);
+    const auto more = [&](int a, int b) {
+        return space.squares[a] > space.squares[b] || (space.squares[a] == space.squares[b] && a < b);
+    };
+    std::partial_sort(space.order.begin(), space.order.begin() + max, space.order.end(), more);
+    space.vertices.clear();
+    double held = 0.0;
+    for (int k = 0; k < max && held < subset_square * sum; ++k) {
+        space.vertices.push_back(space.order[k]);
+        held += space.squares[space.order[k]];
+    }
+    return sum > 0.0 && held >= min_subset_square * sum;
+}
+
+/// Adds the spring neighbours of the vertices, leaves out prescribed ones, and sorts.
+void add_neighbours(const StepScene& scene, SubsetSpace& space) {
+    const Adjacency& pattern = scene.model.adjacency;
+    space.joined.assign(scene.model.vertex_count(), 0);
+    for (const int v : space.vertices) space.joined[v] = 1;
+    const std::size_t chosen = space.vertices.size();
+    for (std::size_t k = 0; k < chosen; ++k) {
+        const int slice = space.vertices[k] / slice_lanes, lane = space.vertices[k] % slice_lanes;
+        for (int e = pattern.start[slice] + lane; e < pattern.start[slice + 1]; e += slice_lanes) {
+            const int other = pattern.other[e];
+            if (!space.joined[other]) space.vertices.push_back(other);
+            space.joined[other] = 1;
+        }
+    }
+    std::erase_if(space.vertices, [&](int v) { return !scene.is_free(v); });
+    std::sort(space.vertices.begin(), space.vertices.end());
+}
+
+double residual_of_subsets(const StageEquations& equations) {
+    const ClothModel& model = equations.stage().scene.model;
+    double sum = 0.0;
+    for (const int v : equations.space().subsets.vertices) {
+        sum += square_at(equations.space().current.residual, v) / model.mass[v];
+    }
+    return std::sqrt(sum);
+}
+
+/// Solves A dv = -r on the subset; dv is 0 elsewhere.
+void set_subset_direction(const StageEquations& equations) {
+    NewtonSpace& space = equations.space();
+    const StagePoint& current = space.current;
+    SubsetSpace& subsets = space.subsets;
+    {
+        StageTimer timer(equations.times().setup);
+        fill_matrix(current.forces.spring_terms, current.contact.blocks, space.solver.matrix);
+        subsets.system.fill(space.solver.matrix, subsets.vertices);
+    }
+    StageTimer timer(equations.times().solve);
+    set_zero(equations.stage().scene.compute, space.direction, equations.stage().scene.model.vertex_count());
+    for (const int v : subsets.vertices) space.right_side.set(v, -current.residual.at(v));
+    subsets.system.solve(space.right_side, subset_linear_ratio, space.direction);
+}
+
+}  // namespace
+
+bool solve_subsets(StageEquations& equations, const TimeError& error) {
+    NewtonSpace& space = equations.space();
+    if (!equations.arrived() || space.current.constraints.size() == 0 || !space.current.forces.pressure_blocks.empty())
+        return false;
+    const double sum = set_squares(equations, space.subsets.squares);
+    if (!choose_vertices(sum, space.subsets)) return false;
+    add_neighbours(equations.stage().scene, space.subsets);
+    const double enough = subset_residual_ratio * residual_of_subsets(equations);
+    for (int n = 0; n < max_subset_iterations && residual_of_subsets(equations) > enough && !is_past(space.time.deadline); ++n) {
+        set_subset_direction(equations);
+        const LineResult line = search_line(equations, error);
+        if (line.stuck || line.backtracks == max_line_trials) break;
+    }
+    return true;
+}
+
+}  // namespace percale
