@@ -189,18 +189,18 @@ constexpr std::size_t self_clusters_a_part = 64, self_lists_a_part = 16, self_li
 constexpr double rest_activation_ratio = 0.5;
 
 /// The same fraction on the path through a seam. Each side of a seam is sampled in its own way, so that edges from places close
-/// to each other cross where it is folded: at 0.5 such a fold cannot close below 60 degrees, and contact holds the seam open. 0:
-/// nothing keeps its sides apart near it.
+/// to each other lie across each other where it is folded: at 0.5 such a fold cannot close below 60 degrees, and contact holds
+/// the seam open. 0: nothing keeps its sides apart near it.
 constexpr double seam_activation_ratio = 0.1;
 
 /// Maximum number of pairs of cloth with cloth that are considered for one move, in all and for each vertex; there may be one
 /// list for each `pairs_per_list` of them. See max_packs.
 constexpr long max_self_pairs = 4000000, max_self_pairs_per_vertex = 300, pairs_per_list = 16;
 
-/// Sine (17 degrees). Edges that cross are in contact below h where all faces beside them fall away by as much, below h/2 where
-/// they are flat, as vertices meet faces there, and not where one rises by as much; in between the ratio is linear. Smaller:
-/// cloth that bends a little gains and loses such contacts, and never comes to rest. Larger: ridges are no contacts, or one
-/// contact counts twice.
+/// Sine (17 degrees). Edges whose closest points are interior are in contact below h where all faces beside them fall away by as
+/// much, below h/2 where they are flat, as vertices meet faces there, and not where one rises by as much; in between the ratio is
+/// linear. Smaller: cloth that bends a little gains and loses such contacts, and never comes to rest. Larger: ridges are no
+/// contacts, or one contact counts twice.
 constexpr double sharp_sine = 0.3;
 
 /// Fraction of h below which every pair of the lists is in contact, a local minimum or not: near a seam the features that lie

@@ -137,7 +137,7 @@ constexpr double min_transfer_cosine = 0.9;
 /// each takes Newton longer.
 constexpr double projection_stiffness_ratio = 1.0;
 
-/// s, in which cloth that starts too near comes back to h. Shorter: it is thrown off. Longer: it stays too near.
+/// s, time constant with which cloth that is too near comes back to h. Shorter: it is thrown off. Longer: it stays too near.
 constexpr double thickness_recovery_time = 0.05;
 
 /// Fraction of the activation distance beyond its target within which a constraint's force ends. 1: constraints that leave the
@@ -458,7 +458,7 @@ constexpr int jump_parts = 8;
 constexpr double reported_strain = 1.0;
 
 /// Halvings of one substep, one inside the other: the shortest is 1/64 of it. Fewer: hard impacts end as steps that did not
-/// converge. More: a step that cannot converge costs twice as much with each before it fails.
+/// converge. More: a step that cannot be solved costs twice as much with each before it ends.
 constexpr int max_halvings = 6;
 
 /// s, m. Time in which a weld takes up its gap, and the gap at which its spring's force is the largest that it holds with.

@@ -29,7 +29,7 @@ bool stays_above(const PackHull& hull, std::span<const int> vertices, const std:
     });
 }
 
-/// Sets the middle of all means, and the largest deviation from it.
+/// Sets the centre of the box of all means, and the bound of the deviations from it.
 void set_drift(ClusterList& list, std::span<const PatchMotion> motions) {
     list.drift = Vec3::Zero();
     list.spread = 0.0;

@@ -27,14 +27,15 @@ inline float above(double x) { return static_cast<float>(x + tolerances::rounded
 struct ListedPack {
     int feature = 0;              // of the cluster's list
     unsigned number : 24 = 0;     // of the pack, among those of the feature's obstacle
-    unsigned persistent : 8 = 0;  // lanes that were contacts since the last update_candidates: they stay so while near
+    unsigned persistent : 8 = 0;  // one bit a lane: it has been a contact and stays one while it is near. update_candidates
+                                  // clears it where a vertex has moved by more than 0.1 h, and all bits if an obstacle moves
 };
 
 /// The packs of a cluster, in the order of its features, with lower bounds that the list's travel uses up. Each bound has an
 /// array of its own, because nothing else is read of packs that stay away.
 struct ListedPacks {
     std::vector<float> reach;  // m, smallest distance bound + travel when last measured: reach - travel is below all distances
-    std::vector<float> wake;   // m, while travel is below this, no pair of the pack is a contact
+    std::vector<float> wake;   // m, a value of travel: while travel is below it, no pair of the pack is a contact
     std::vector<ListedPack> at;
 
     std::size_t size() const { return reach.size(); }
@@ -50,8 +51,8 @@ struct ListedPacks {
     void make_persistent(std::size_t i, unsigned lane, double thickness);
 };
 
-/// Versions of lists that were read from bytes, where the obstacles' own are not known: valid for the obstacles where they are,
-/// or for no place.
+/// Placeholders for the version of lists that were read from bytes (CandidateLists::settle): valid for the saved poses of the
+/// obstacles, or invalid.
 constexpr int good_version = 0, no_version = -1;
 
 /// All packs of obstacle features that can come closer to a cluster than the thickness while its vertices stay in their boxes.
@@ -62,11 +63,11 @@ struct ClusterList {
     double thickness = 0.0;       // m, largest of its vertices
     double travel = 0.0;          // m, bound of how much any distance has shrunk since the list was made
     double cloth_travel = 0.0;    // m, bound of how far any of its vertices has gone since then
-    Vec3 drift = Vec3::Zero();    // m, mean displacement of the listed patches during the step
-    double spread = 0.0;          // m, largest deviation of one of their vertices from it
-    double smallest_reach = 0.0;  // smallest ListedPacks::reach
-    double quiet_until = 0.0;     // smallest ListedPacks::wake
-    double inside_until = -1.0;   // m, cloth_travel up to which all vertices are certainly in their boxes
+    Vec3 drift = Vec3::Zero();    // m, centre of the box of the listed patches' mean displacements in the step
+    double spread = 0.0;          // m, bound of the deviation of their vertices' displacements from it
+    double smallest_reach = 0.0;  // m, smallest ListedPacks::reach
+    double quiet_until = 0.0;     // m, a value of travel: smallest ListedPacks::wake
+    double inside_until = -1.0;   // m, a value of cloth_travel, up to which all vertices are certainly in their boxes
     bool has_persistent = false;  // some lane is persistent
     int version = no_version;     // of the obstacles' motion it was built for
 };
@@ -113,7 +114,7 @@ public:
     std::span<ClusterList> lists() { return memory_.lists; }
     /// m, upper bound of how much nearer a move brings any vertex of a cluster and any listed obstacle to each other.
     double approach(std::size_t cluster, const ClothMove& move) const;
-    /// Contacts of cloth features of which a vertex has `moved` are no longer persistent.
+    /// Contacts of cloth features of which a vertex is marked in `moved` are no longer persistent.
     void forget_persistent(std::span<const unsigned char> moved);
     /// Sets the smallest bounds of a list whose packs' bounds have changed.
     static void set_smallest_bounds(ClusterList& list);

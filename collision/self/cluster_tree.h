@@ -17,7 +17,7 @@ public:
     void refit(std::span<const Box> boxes);
 
     /// Finds all pairs (a, b) with a <= b of items whose boxes overlap, (a, a) included, in ascending order. Returns false, and
-    /// unusable pairs, where there are more than `most`.
+    /// unusable pairs, where there are more than `max`.
     bool find_pairs(std::vector<std::pair<int, int>>& pairs, long max = std::numeric_limits<long>::max());
 
 private:

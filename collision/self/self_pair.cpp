@@ -60,8 +60,8 @@ SelfPairContact vertex_face(const SelfPair& pair, std::span<const Vec3> x, const
     return contact;
 }
 
-/// Activation ratio of an edge that crosses another in the direction `towards`: 1 for a ridge or boundary, 1/2 in flat cloth, 0
-/// in a valley, and linear in between, by the steepest rise of the faces beside it.
+/// Activation ratio of an edge whose closest point `foot` to another edge, in the direction `towards`, is inside: 1 for a ridge
+/// or boundary, 1/2 in flat cloth, 0 in a valley, and linear in between, by the steepest rise of the faces beside it.
 double edge_activation_ratio(const ClothSurface::Edge& edge, const Vec3& foot, const Vec3& towards, std::span<const Vec3> x) {
     if (edge.opposite[1] < 0) return 1.0;
     double highest = -tolerances::sharp_sine;

@@ -18,7 +18,7 @@ struct SelfPair {
     std::array<int, 4> vertex{-1, -1, -1, -1};  // the vertex and the face's corners; the ends of both edges
     std::array<int, 2> feature{-1, -1};         // vertex and triangle; two edges
     int record = -1;                            // its number in SelfList::records; -1: it has none
-    double thickness = 0.0;                     // m, they may be in contact below it
+    double thickness = 0.0;                     // m, the largest activation distance of the pair
     double reach = 0.0;  // distance + travel when last measured: reach - travel bounds the distance from below
 };
 
@@ -26,8 +26,8 @@ struct SelfPair {
 /// cloth that lies in folds.
 struct SelfPairRecord {
     int pair = -1;  // its number in SelfList::pairs
-    /// m, near a seam: activation distance where the vertex and corner k are closest, or the ends (0, 2), (0, 3), (1, 2) and (1,
-    /// 3) of the edges.
+    /// m, activation distances near a seam. Vertex and face: entry k is that where corner vertex[1 + k] is closest, the last is
+    /// unused. Edges: those where the ends (0, 2), (0, 3), (1, 2), (1, 3) are closest.
     std::array<double, 4> seam_activation_distance = away_from_seams;
     double activation_distance = 0.0;  // m, of its contact since the last update_candidates; 0: it is no contact
 };
@@ -38,13 +38,13 @@ struct SelfPairContact {
     std::array<double, 4> weight{};  // of the pair's vertices: > 0 on the first side, < 0 on the second, sum 0
     Vec3 direction = Vec3::Zero();   // unit, second side towards first
     /// Fraction of the thickness below which the pair represents the contact: 1 where it is a local minimum of the distance
-    /// (closest points inside the face, or on its edges and corners where the faces around fall away; inside two edges that cross
-    /// as ridges), 1/2 for edges that cross in flat cloth, where vertices and faces meet first, in between according to the bend
-    /// of the cloth, else 0. One pair represents closest points that several pairs share. It is not computed for edges farther
-    /// apart than the pair's thickness.
+    /// (closest points inside the face, or on its edges and corners where the faces around fall away; inside two edges that are
+    /// ridges or boundaries). For edges with closest points inside both: 1/2 in flat cloth, where vertices and faces meet first,
+    /// in between according to the bend of the cloth, times `crossing`. Else 0. One pair represents closest points that several
+    /// pairs share. It is not computed for edges farther apart than the pair's thickness.
     double activation_ratio = 0.0;
-    /// For edges: 0 where they are nearly parallel and their closest points jump from end to end, 1 from twice that angle on. It
-    /// is a factor of activation_ratio.
+    /// A factor that fades nearly parallel edges, contained in activation_ratio: 0 where their closest points jump from end to
+    /// end, 1 from twice that angle on. 1 for a vertex and a face.
     double crossing = 1.0;
 };
 

@@ -12,22 +12,22 @@ namespace percale {
 
 /// What a contact law needs to know of the stage in which it is evaluated.
 struct ContactStep {
-    double dt = 0.0;                             // s, of the stage being solved
+    double dt = 0.0;                             // s, h sqrt(contact_weight) of the stage: contact then has backward Euler's form
     double stiffness_dt = 0.0;                   // s, for which the inertial part of the stiffness is made, where longer than dt
     double obstacle_rate = 0.0;                  // 1/s, obstacle velocity / obstacle_displacement
     double fraction = 0.0;                       // of the whole step, where the obstacles are
     Vec3 gravity = Vec3::Zero();                 // m/s^2
     const std::vector<double>* mass = nullptr;   // kg, of each vertex
-    const DiagonalBlocks* diagonal = nullptr;    // of the elastic step matrix at the start of the stage; frozen
-    const Vec3Arrays* load = nullptr;            // N, forces without contact at the start of the stage; null: gravity alone
+    const DiagonalBlocks* diagonal = nullptr;    // of the elastic step matrix at the stage's first evaluation; frozen
+    const Vec3Arrays* load = nullptr;            // N, forces without contact, likewise; null: gravity alone
     const FrictionStart* friction = nullptr;     // null: without friction
-    const FrictionContacts* previous = nullptr;  // of the point before this one in the search; null at the first evaluation
+    const FrictionContacts* previous = nullptr;  // of the last accepted Newton iterate; null at the first evaluation
 };
 
 /// The result of one evaluation of contact.
 struct ContactTerms {
     std::vector<CoupledBlock> blocks;  // first `others`, then those of constraints, then one per friction contact
-    std::size_t others = 0;            // blocks of single vertices that other forces added; contact keeps them
+    std::size_t others = 0;            // blocks of single vertices that the wind added; contact keeps them
     FrictionContacts friction_contacts;
     std::vector<ClothFrictionContact> cloth_friction_contacts;  // of the constraints between cloths
     double energy = 0.0;                                        // J, without friction
@@ -58,9 +58,9 @@ struct ContactForces {
     std::vector<ConstraintForce>& constraint_forces;  // filled anew, one entry per constraint
 };
 
-/// The warm start of contact: what one substep passes on to the next.
+/// The warm start of contact: what one implicit stage passes on to the next, within a substep and beyond.
 struct ContactWarmStart {
-    ContactMultipliers last, lasting;  // forces at the end of the last substep; those that lasted for two substeps
+    ContactMultipliers last, lasting;  // forces at the end of the last stage; those that lasted for two stages
     ContactMultipliers held;           // for penalty: anchors of friction between cloths at that end (set_held)
     double min_distance = 0.0;         // smallest distance over thickness of the constraints at that end; 0 if unknown
 
@@ -80,12 +80,14 @@ struct ContactMove {
 
 /// Energy that contact forces take from the cloth beyond the change of their own energy, without the work of obstacles, J.
 struct ContactLoss {
-    double friction = 0.0;    // friction force times slip
-    double contact = 0.0;     // contacts differ, or are less stiff, at the end than where the energy was stored
+    double friction = 0.0;  // friction force times slip
+    /// Penalty: the energy stored at the start less what the constraints of the end would store there. Projection: what the
+    /// normal forces take beyond the change of the contact energy.
+    double contact = 0.0;
     double integrator = 0.0;  // Bregman terms of the potentials of constraints and of the sticking springs; >= 0
 };
 
-/// A contact law: how contact acts on the cloth. penalty.h and projection.h implement it.
+/// A contact law: how contact acts on the cloth, by penalty springs (penalty.h) or by an augmented Lagrangian (projection.h).
 class ContactLaw {
 public:
     virtual ~ContactLaw() = default;
@@ -93,16 +95,17 @@ public:
     /// The activation distance of the law over the thickness: the law needs all contacts that are nearer.
     virtual double activation_ratio() const = 0;
 
-    /// Begins a stage from the warm start of the last substep.
+    /// Begins a stage from the warm start of the last one.
     virtual void begin(const ContactWarmStart& warm_start) = 0;
-    /// Passes the constraints with which the stage begins.
+    /// Passes the constraints of the stage's first evaluation, which follows the clamped move to q* + h v_n.
     virtual void set_constraints(const ContactConstraints& constraints) = 0;
     /// Computes the forces and the matrix blocks at a point.
     virtual void evaluate(const ContactPoint& point, ContactForces forces) const = 0;
-    /// The motion at a point is solved. Updates what the law held fixed, where that is off by more than `enough`, m, and
-    /// evaluates anew; returns false if nothing is left to be solved.
+    /// Outer iteration of the augmented Lagrangian, after Newton has converged at a point: where the largest error of a
+    /// constraint exceeds `enough`, m, updates the multipliers and evaluates anew. False: converged, also for a law without
+    /// multipliers.
     virtual bool correct(const ContactPoint& point, ContactForces forces, double enough) = 0;
-    /// The substep ends at a point with these constraints, terms and forces; writes the warm start of the next one.
+    /// The stage ends at a point with these constraints, terms and forces; writes the warm start of the next one.
     virtual void end(const ContactConstraints& constraints, const ContactTerms& terms,
                      const std::vector<ConstraintForce>& constraint_forces, ContactWarmStart& warm_start) = 0;
 
@@ -114,8 +117,9 @@ public:
 Vec3 relative_move(const ContactMove& move, std::size_t constraint);
 
 /// Obstacles move on while the cloth moves: the distance of a constraint changes by n.(dx - dp), where dp is the displacement
-/// that is left to its obstacle point. A Newton direction thus solves A dv = -r + dt P''(d) n n.dp. Adds the last term where
-/// `free` is 1; the blocks of constraints hold dt^2 P'' n n^T. `rate`: the rest of the whole step over dt, 1/s.
+/// that is left to its obstacle point. A Newton direction thus solves A dv = -r + dt^2 P''(d) n n.dp/h. Adds the last term where
+/// `free` is 1; the blocks of constraints hold dt^2 P'' n n^T. `rate`: the part of the whole step that is left in this stage,
+/// over the stage's h, 1/s.
 void add_obstacle_advance(const ContactConstraints& constraints, const ContactTerms& terms, double rate,
                           const AlignedVector<double>& free, Vec3Arrays& right_side);
 

@@ -10,7 +10,7 @@
 
 namespace percale {
 
-/// Motion of an obstacle over a whole step: its point at p at the start of the stage moves by turn p + shift, m.
+/// Displacement of an obstacle over the whole step: u(p) = turn p + shift, m, for its point that is at p as the stage begins.
 struct ObstacleMotion {
     Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
     Vec3 shift = Vec3::Zero();
@@ -29,18 +29,20 @@ struct FrictionStart {
     const ContactMultipliers* held = nullptr;               // of the constraints between cloths, from set_held; null: none
 };
 
-/// A vertex in contact with an obstacle: the sum over all constraints between them.
+/// A vertex in contact with an obstacle: the sum over all constraints between them. `friction_limit` is a vector, the sum of
+/// their mu N n by weight, with opposed normals flipped: its norm is the limit, its direction the contact normal.
 struct FrictionContact {
     int vertex = -1, obstacle = -1;
     int next = -1;                              // friction contact of the same vertex with another obstacle
-    Vec3 friction_limit = Vec3::Zero();         // N, friction coefficient times normal force
+    Vec3 friction_limit = Vec3::Zero();         // N, sum of mu N n, see above
     double stick_threshold = 0.0;               // m, slip up to which it sticks
     bool had_anchor = false;                    // it had a stick anchor when the stage began
     Vec3 obstacle_displacement = Vec3::Zero();  // m, displacement of the anchor's point in the whole step
     Vec3 carried = Vec3::Zero();                // m N, of a deforming obstacle: sum of obstacle displacements times normal forces
     double load = 0.0;                          // N, of a deforming obstacle: sum of the normal forces
     Vec3 slip = Vec3::Zero();                   // m, tangential, from the stick anchor
-    Vec3 slip_direction = Vec3::Zero();         // unit, in which the matrix leaves it free; zero: none
+    Vec3 slip_direction = Vec3::Zero();         // unit, in which the tangent stiffness is dropped (active set); zero: the
+                                                // matrix treats the contact as sticking, also beyond the threshold
 };
 
 /// Friction of a constraint between two cloths.
@@ -81,8 +83,8 @@ double stick_energy(std::span<const ClothFrictionContact> cloth_friction_contact
 /// Sets the stick anchors that friction contacts leave behind. A sliding contact drags its anchor along.
 void set_stick_anchors(const FrictionContacts& friction_contacts, std::vector<StickAnchor>& stick_anchors);
 
-/// The same for constraints between cloths, as forces by their keys: friction F with normal force N stands for the slip
-/// -threshold F/(mu N).
+/// The same for constraints between cloths, by their keys: the slip s, at most the stick threshold r, is stored as a pair of
+/// forces, the normal force N and the friction F = -mu N s/r.
 void set_held(const ContactConstraints& constraints, std::span<const ClothFrictionContact> cloth_friction_contacts,
               const std::vector<ConstraintForce>& constraint_forces, ContactMultipliers& held);
 

@@ -13,13 +13,13 @@ namespace percale {
 /// with
 ///     n max(0, l_n + k (h - d)) + P(l_t - k dt s),   P the projection onto the disc of radius mu times the normal force,
 /// with slip velocity s. Newton solves for the motion with the multipliers fixed, then each multiplier becomes its constraint's
-/// force. Where that changes nothing, d = h where constraints push and s = 0 where they stick, whatever k is. A step makes a few
-/// such rounds; the next step starts from its forces.
+/// force. Where that changes nothing, d = h where constraints push and s = 0 where they stick, whatever k is. A stage makes a few
+/// such rounds; the next one starts from its forces.
 class ProjectedContact final : public ContactLaw {
 public:
     double activation_ratio() const override;
 
-    /// Starts from the forces that lasted for two substeps, as the push of an impact lasts for one.
+    /// Starts from the forces that lasted for two stages, as the push of an impact lasts for one.
     void begin(const ContactWarmStart& warm_start) override;
 
     /// Forces move on with the cloth; the stiffness of each vertex is divided among its constraints.

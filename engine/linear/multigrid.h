@@ -13,12 +13,13 @@ using FloatVec = std::array<float, 3>;
 /// correction; dense at the bottom. Symmetric and positive definite. Coarser levels take the triangles of membranes as the
 /// springs on their edges alone, which is within a factor of about three.
 ///
-/// Contacts and prescribed vertices leave the hierarchy as it is. The transfers are filtered at such vertices: by 0 where the
-/// motion is prescribed, by S = d (d I + K)^-1 where contact adds K to a vertex whose own block has the size d along K; coarser
-/// diagonals get the parallel sum S K instead of K, since a stiff contact at one vertex does not hold its neighbours.
+/// Contacts and prescribed vertices do not change coarse spaces or interpolation. The transfers of level 0 are filtered at such
+/// vertices: by 0 where the motion is prescribed, by S = d (d I + K)^-1 where contact adds K to a vertex whose own block has the
+/// size d along K. Coarse diagonals get the spring block of a prescribed vertex, and of a contact the parallel sum S K instead of
+/// K, since a stiff contact at one vertex does not hold its neighbours.
 ///
-/// Between cloths contact holds their relative motion alone: their common motion is as soft as without it. Where some of these
-/// constraints are stiff, the finest level takes all of them, C = W K W^T, exactly, not by diagonal blocks, and another filter
+/// Between cloths contact holds their relative motion alone: their common motion is as soft as without it. Where one of these
+/// constraints is stiff, the finest level takes all of them, C = W K W^T, exactly, not by diagonal blocks, and another filter
 /// follows the S of all others: a few sweeps of block Jacobi on them, x -= tau D^-1 C x, with the factors tau that minimise the
 /// largest energy l F(l)^2 over the eigenvalues l of D^-1 C (smoothed aggregation: Vanek, Mandel and Brezina 1996, Computing 56).
 /// Coarser diagonals keep S K of all constraints: without it layers move far apart, and stiff constraints need more iterations.
@@ -46,7 +47,8 @@ public:
 
     /// y = A x at the finest level, contact constraints exact; x and y are 0 at prescribed vertices.
     void multiply(const AlignedVector<float>& x, AlignedVector<float>& y);
-    /// The same in parts: `place` for all ranges, then `set_row_forces`, then `product` for all ranges.
+    /// The same in parts: `place` for all ranges, which copies x into the layout that the product reads; then `set_row_forces`;
+    /// then `product` for all ranges.
     void place(const AlignedVector<float>& x, Slices range) { place(0, x, range); }
     void set_row_forces(const AlignedVector<float>& x);
     void product(const AlignedVector<float>& x, AlignedVector<float>& y, Slices range);
@@ -68,15 +70,15 @@ private:
         AlignedVector<float> ground;      // the mass alone (finest), or six arrays
         AlignedVector<float> inverse;
         AlignedVector<float> x, b, r;
-        AlignedVector<float> points;  // x in its place for a product, unless that is in bands
+        AlignedVector<float> points;  // x in the layout of a product, unless that is in bands
         AlignedVector<float> handed;  // as points: the residual for the coarser level, or x for the finer one
-        std::vector<int> eased;       // vertices, ascending: damped more in smoothing
+        std::vector<int> eased;       // vertices, ascending: under-relaxed in smoothing (sewn_point_easing)
     };
     /// A vertex of the finest level whose transfers are filtered.
     struct Filtered {
         int vertex;
         std::array<float, 6> filter;   // S
-        std::array<float, 6> contact;  // K, kg; applied by the smoother
+        std::array<float, 6> contact;  // kg, a bound of the constraints that are not taken exactly, for the residual of level 0
         std::array<double, 6> ground;  // kg, for the next level
         int first_row = 0, rows = 0;   // in constraint_ends_
         int between = 0;               // the first ones of these, which are taken exactly

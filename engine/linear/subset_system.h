@@ -15,7 +15,7 @@ public:
     /// Takes the rows and columns of these vertices, each of them free and named once, from a filled matrix.
     void fill(const BlockMatrix& matrix, std::span<const int> vertices);
 
-    /// A x = b, kg m/s, by conjugate gradient with block Jacobi (as solve_cg) until |b - A x| <= share |b|. Sets x at the
+    /// A x = b, kg m/s, by conjugate gradient with block Jacobi (as solve_cg) until |b - A x| <= ratio |b|. Sets x at the
     /// subset's vertices and reads b there; no other entries. Returns the number of iterations.
     int solve(const Vec3Arrays& b, double ratio, Vec3Arrays& x);
 

@@ -13,8 +13,10 @@ struct LineTrial {
     double start_slope = 0.0;      // J, < 0 for a descent direction
     double objective = 0.0;
     double slope = 0.0;
-    bool objective_known = true;  // false with contact: friction has no potential, constraints come and go
-    /// Curvature condition: largest slope beyond the minimum, over the first one's size, whatever the objective is.
+    /// False with contact, as friction has no potential and constraints come and go, and with damping by velocity. Armijo's rule
+    /// on the known part then still suffices to accept a trial, but a slope that is gentle does, too.
+    bool objective_known = true;
+    /// One-sided curvature condition: slope <= curvature_constant |start_slope|, whatever the objective is.
     double curvature_constant = std::numeric_limits<double>::infinity();
 };
 
@@ -27,17 +29,17 @@ double shorten(const LineTrial& trial);
 
 /// The result of a search along a direction; space.current is its end point.
 struct LineResult {
-    bool small = false;         // the whole direction changes less than a fraction of the time error
+    bool small = false;         // the whole direction changes each unsettled body by newton_error_ratio of its time error at most
     bool full_step = false;     // the whole direction was taken, with pins and obstacles already in place
-    bool stuck = false;         // nothing but rounding can be gained along it
-    bool went_on = false;       // went beyond it, by the secant: the matrix is not that of this state
+    bool stuck = false;         // the decrease predicted along it, or the move, is at the level of rounding: counts as converged
+    bool went_on = false;       // a step prolonged by the secant was evaluated, accepted or not
     int backtracks = 0;         // shortened trials
     bool met_contacts = false;  // no move: the whole of it ends in trial contacts that were in no matrix, now in the work space
 };
 
 /// Moves from space.current along space.direction: a full step, clamped where something would cross and shortened until
-/// accept_trial agrees; prolonged by the secant where the slope has hardly fallen. With `stop_at_contacts` it may make no move
-/// (LineResult::met_contacts), so that another direction can be computed.
+/// accept_trial agrees; prolonged by the secant where the slope has hardly fallen. After max_line_trials trials the last one is
+/// taken. With `stop_at_contacts` it may make no move (LineResult::met_contacts), so that another direction can be computed.
 LineResult search_line(StageEquations& equations, const TimeError& error, bool stop_at_contacts = false);
 
 }  // namespace percale

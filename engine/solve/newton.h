@@ -7,8 +7,8 @@ namespace percale {
 
 enum class NewtonEnd {
     converged,
-    iterations_used,  // arrived, but the error is above its target
-    blocked,          // pins or obstacles could not reach the end of their path
+    iterations_used,  // pins and obstacles have arrived, the tolerance is not met: iterations, work or time used up, or cancelled
+    blocked,          // pins or obstacles have not arrived at the end of their motion
     not_finite,
 };
 
@@ -17,11 +17,11 @@ struct NewtonReport {
     bool out_of_time = false;  // ended by the time budget, before it was solved
     int newton_iterations = 0;
     int linear_iterations = 0;
-    int line_search_cuts = 0;
-    double residual = 0.0;  // relative to the first, or to the impulse of gravity where that is larger
+    int line_search_cuts = 0;  // backtracks of line searches; clamps by the detector do not count
+    double residual = 0.0;     // relative to the first, or to the impulse of gravity where that is larger
     double smallest_fraction = 1.0;
     double largest_stiffness = 0.0;  // N/m, of contact
-    double time_error = 0.0;         // m, estimated error of the stage's length, mean of the worst cloth
+    double time_error = 0.0;         // m, estimated local error of the time discretisation: mass-weighted RMS, of the worst cloth
 };
 
 /// The output of a stage: the cloth at its end and the warm start of contact. Both keep their values where the stage is blocked
@@ -31,10 +31,12 @@ struct StageEnd {
     ContactWarmStart& contact;
 };
 
-/// Solves one stage from stage.start by Newton's method with the positive definite matrix of forces/springs.h, conjugate gradient
-/// and a line search; every move is clamped to what the detector proves free of crossing. Stops by settings.newton_tolerance, or
-/// (auto) when the change by the last iteration, in metres, dt sqrt(dv . b / m), is at most newton_error_ratio of the stage's
-/// time error in every cloth. space.current keeps forces and contacts of the end.
+/// Solves one stage from stage.start by Newton's method with the matrix of linear/block_matrix.h, which sums all terms, a linear
+/// solver (conjugate gradient or a factorisation) and a line search; every move is clamped to what the detector proves free of
+/// crossing. Stops by settings.newton_tolerance, or (auto) when the change by the last iteration, dt sqrt(-r . dv / m) in metres
+/// with the mass m of the cloth, is at most newton_error_ratio of the stage's time error plus a floor in every cloth, and
+/// likewise at its worst vertex (change_is_small), or when a line search is stuck. space.current keeps forces and contacts of the
+/// end.
 NewtonReport solve_stage(const ImplicitStage& stage, NewtonSpace& space, StageEnd end, StageTimes& times);
 
 }  // namespace percale

@@ -41,12 +41,14 @@ struct NewtonChange {
 /// The direction in the work space, which leads from space.current to the velocities `ahead`.
 NewtonChange change_to(const StageEquations& equations, const Vec3Arrays& ahead);
 
-/// Whether the direction changes every cloth of a body by less than `share` of the time error in the mean, and by less than twice
-/// that at its worst vertex; in metres, dt sqrt(-r . dv/m). Changes below 2e-5 of the thickness (in contact 2e-4), or below a
-/// tenth of the allowance if that is less, are negligible.
+/// Whether the direction changes every cloth of a body, of the mass m, by little in the mean and at its worst vertex:
+///     dt sqrt(-r . dv/m) <= error_ratio dt/2 |v - v_n|_M/sqrt(m) + floor,
+///     dt max|dv| <= 2 error_ratio dt max|v - v_n| + 10 floor,
+/// |v - v_n| replaced by extrapolated_error_ratio |v - extrapolated| where that is less. The floor, m, is 2e-5 of the thickness
+/// (in contact 2e-4), or a tenth of the allowance if that is less.
 bool change_is_small(const TimeError& error, const NewtonChange& change, double error_ratio, const Body& body);
 
-/// The time error itself, m, mean of the worst cloth.
+/// The time error itself, m: the mass-weighted RMS of the cloth where it is largest.
 double time_error(const TimeError& error, const Vec3Arrays& velocities);
 
 /// The progress of a Newton iteration.

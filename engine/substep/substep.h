@@ -12,7 +12,7 @@
 
 namespace percale {
 
-/// A piece of a step that is solved at once.
+/// A part of a step that one application of the time integrator advances, in one or more stages.
 struct Substep {
     const StepScene& scene;
     const Vec3Arrays& step_start;  // m, positions when the step began: pins move straight from there to their targets

@@ -14,8 +14,9 @@
 #include "fields/toml_document.h"
 #include "fields/toml_values.h"
 
-// The fields of a spec of a scene file, a row each. From the rows come its keys (checks, `percale explain`, README), its reading
-// and its writing (settings in report.json, identity of a checkpoint). The tables are in format/.
+// The fields of a spec of a scene file, a row each. From the rows come its keys (checks, `percale explain`,
+// scenes/scene_keys.md), its reading and its writing (settings in report.json, identity of a checkpoint). The tables are in
+// format/.
 namespace percale::scenes {
 
 /// One field: what its key is, and how the key's value gets into a spec and out again.

@@ -22,8 +22,9 @@ enum class StepStatus {  // those up to tolerance_missed are accepted
     cancelled,          // failed: Simulation::set_cancel
 };
 
-/// The outcome of a substep, a piece of a step that is solved at once. All but `solved` drop it, and it is solved again in
-/// shorter ones; where it cannot be shorter, `not_converged` is kept as it is, the others fail the step.
+/// The outcome of a substep, a part of a step that one application of the time integrator advances. All but `solved` drop it, and
+/// it is solved again in shorter ones. Where it cannot be shorter, or time is up, `not_converged` is kept as it is; where it
+/// cannot be shorter, the others fail the step.
 enum class SubstepOutcome {
     solved,
     not_converged,  // the solver used up its iterations
