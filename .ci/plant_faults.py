@@ -33,7 +33,7 @@ class Fault:
 
 FAULTS = [
     Fault('layer violation', 'layers', 'engine/mesh/vertex_normals.cpp',
-          '#include "tolerances.h"\n', '#include "solve/newton.h"\n#include "tolerances.h"\n', 'engine/mesh/vertex_normals.cpp'),
+          '#include "vertex_normals.h"\n', '#include "vertex_normals.h"\n\n#include "solve/newton.h"\n', 'engine/mesh/vertex_normals.cpp'),
     Fault('missing include', 'alone', 'collision/geometry/time_of_impact.cpp',
           '#include "geometry/triangle_distance.h"\n', '', 'time_of_impact.cpp'),
     # Before those that break the build which they take.

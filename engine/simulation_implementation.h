@@ -20,6 +20,9 @@
 // caller prescribes), simulation_changes.cpp (changes during a run) and simulation_views.cpp (views of the state).
 namespace percale {
 
+/// m or m/s: largest positions and velocities that a program may give. Larger: squares lose all digits, or are infinite.
+inline constexpr double largest_given_number = 1e9;
+
 inline std::string number_text(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%g", value);

@@ -4,10 +4,13 @@
 #include "bullet/bullet_tree.h"
 #include "detector.h"
 #include "percale/detectors.h"
-#include "tolerances.h"
 
 namespace percale {
 namespace {
+
+/// Fraction of the obstacle's diagonal. The box in which Bullet quantises, and against which queried boxes are tested first, is
+/// larger than the obstacle by this much.
+constexpr double quantised_box = 1e-6;
 
 // Linking the single-precision library against these headers would corrupt memory silently.
 static_assert(sizeof(btScalar) == 8, "Bullet must be the double-precision build (bullet-float64, BT_USE_DOUBLE_PRECISION)");
@@ -55,7 +58,7 @@ private:
     void set_bounds() {
         bounds_ = {};
         for (const Vec3& x : vertices_) bounds_.add(x);
-        bounds_.grow(tolerances::quantised_box * (bounds_.high - bounds_.low).norm());
+        bounds_.grow(quantised_box * (bounds_.high - bounds_.low).norm());
     }
 
     /// Bullet's interface takes mutable pointers and only reads.

@@ -3,10 +3,15 @@
 #include <cmath>
 #include <numeric>
 
-#include "tolerances.h"
-
 namespace percale::certificate {
 namespace {
+
+/// Triangles in a leaf of a tree. Cost alone.
+constexpr int leaf_size = 4;
+
+/// A split must leave one item in this many on each side, else the items are halved by number. Keeps the depth logarithmic: with
+/// a split that may leave one item alone, meshes made of ever smaller parts give trees as deep as they have triangles.
+constexpr int max_uneven_split = 8;
 
 std::vector<Box> boxes_of(std::span<const Corners> triangles) {
     std::vector<Box> boxes;
@@ -68,7 +73,7 @@ void BoxTree::split(int node, int first, int count) {
     nodes_[node].box = box;
     nodes_[node].extent = (box.high - box.low).sum();
     nodes_[node].first = first;
-    if (count <= tolerances::leaf_size) {
+    if (count <= leaf_size) {
         nodes_[node].count = count;
         return;
     }
@@ -93,7 +98,7 @@ int BoxTree::partition(int first, int count) {
     const auto begin = order_.begin() + first, end = begin + count;
     const auto cut = std::partition(begin, end, [&](int item) { return coordinate(item) < middle; });
     const int left = static_cast<int>(cut - begin);
-    if (tolerances::max_uneven_split * std::min(left, count - left) >= count) return left;
+    if (max_uneven_split * std::min(left, count - left) >= count) return left;
     std::nth_element(begin, begin + count / 2, end, [&](int a, int b) { return coordinate(a) < coordinate(b); });
     return count / 2;
 }

@@ -6,10 +6,13 @@
 #include <utility>
 
 #include "geometry/morton_order.h"
-#include "tolerances.h"
 
 namespace percale {
 namespace {
+
+/// Triangles of the cloth in a cluster. More: more features are listed again at once. Fewer: more lists to search. The order of
+/// the constraints depends on it, and so do the last bits of sums over contacts.
+constexpr unsigned long triangles_per_cluster = 8;
 
 /// Numbers the edges of triangles and says which triangle owns each: the one of the lowest index among those that have it. The
 /// first one on the curve would depend on the axes: a turned scene would have other contacts.
@@ -99,9 +102,9 @@ ClothClusters make_clusters(std::span<const Triangle> triangles, std::span<const
 ClothClusters make_clusters(std::span<const Triangle> triangles, std::size_t vertices, std::span<const int> order) {
     ClothClusters result;
     Ownership ownership(vertices, triangles);
-    for (std::size_t from = 0; from < order.size(); from += tolerances::triangles_per_cluster) {
+    for (std::size_t from = 0; from < order.size(); from += triangles_per_cluster) {
         ClothCluster& cluster = result.clusters.emplace_back();
-        const std::size_t to = std::min(order.size(), from + tolerances::triangles_per_cluster);
+        const std::size_t to = std::min(order.size(), from + triangles_per_cluster);
         cluster.triangles.assign(order.begin() + static_cast<long>(from), order.begin() + static_cast<long>(to));
         ownership.fill(cluster);
     }

@@ -12,6 +12,13 @@ namespace percale {
 
 namespace {
 
+/// Roundings of the largest coordinate within which vertices of cloth are in one place at a start. 0: a tube whose rims are 6e-17
+/// m apart does not end its first step. More than some hundred: intended gaps of a mesh are closed.
+constexpr double joined_roundings = 32.0;
+
+/// Size of the cells in which such places are searched for, in units of that distance. Cost alone.
+constexpr double cell_of_joined_places = 1024.0;
+
 using Cell = std::array<double, 3>;
 
 struct CellHash {
@@ -25,7 +32,7 @@ struct CellHash {
 /// Places, stored by cells much larger than the distance that joins.
 class Places {
 public:
-    explicit Places(double rounding) : rounding_(rounding), cell_(tolerances::cell_of_joined_places * rounding) {}
+    explicit Places(double rounding) : rounding_(rounding), cell_(cell_of_joined_places * rounding) {}
 
     /// The first of the places within rounding of x; x becomes a place if there is none.
     Vec3 first_at(const Vec3& x) {
@@ -63,7 +70,7 @@ std::vector<Vec3> joined_places(std::span<const Vec3> positions, std::span<const
     }
     std::vector<Vec3> joined(positions.begin(), positions.end());
     if (!(largest > 0.0)) return joined;
-    Places places(tolerances::joined_roundings * std::numeric_limits<double>::epsilon() * largest);
+    Places places(joined_roundings * std::numeric_limits<double>::epsilon() * largest);
     for (std::size_t v = 0; v < joined.size(); ++v)
         if (used[v] != 0) joined[v] = places.first_at(joined[v]);
     return joined;

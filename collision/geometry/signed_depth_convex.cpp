@@ -5,10 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tolerances.h"
-
 namespace percale {
 namespace {
+
+/// Fraction of the larger extent of two hulls. libccd's expanding polytope ends there. At libccd's own tolerance, 1e-4 m, depths
+/// are wrong by up to 24 mm.
+constexpr double hull_depth = 1e-9;
+
+/// Maximum number of libccd's iterations. Without a limit the expanding polytope may not end.
+constexpr unsigned long max_hull_iterations = 1000;
 
 static_assert(sizeof(ccd_real_t) == sizeof(double), "libccd has to be its double-precision build");
 
@@ -43,8 +48,8 @@ std::optional<HullOverlap> hull_overlap(Points first, Points second) {
     CCD_INIT(&ccd);
     ccd.support1 = ccd.support2 = support;
     // At the library's own tolerance depths are wrong by centimetres, and without a limit it may not end.
-    ccd.epa_tolerance = tolerances::hull_depth * std::max(extent(first), extent(second));
-    ccd.max_iterations = tolerances::max_hull_iterations;
+    ccd.epa_tolerance = hull_depth * std::max(extent(first), extent(second));
+    ccd.max_iterations = max_hull_iterations;
     ccd_real_t depth = 0.0;
     ccd_vec3_t axis, place;
     if (ccdGJKPenetration(&first, &second, &ccd, &depth, &axis, &place) != 0) return std::nullopt;

@@ -11,6 +11,14 @@
 namespace percale {
 namespace {
 
+/// Times the last digit of the largest coordinate. No clamp leaves less, whatever was there: a smaller distance means nothing.
+/// Smaller: features pressed together until rounding decides have crossed. Larger: cloth that is so near cannot move.
+constexpr double rounding_of_coordinates = 32.0;
+
+/// Number of advances after which a pair's time-of-impact lower bound is the last one proven. Too few: clamps fall far short
+/// where the clearance is tiny against the displacement. No value is unsafe.
+constexpr int max_advances = 500;
+
 double squared_distance(const std::array<Vec3, 4>& x, PairShape shape) {
     if (shape == PairShape::point_triangle) return closest_on_triangle(x[0], x[1], x[2], x[3]).distance_squared;
     return closest_on_edges(x[0], x[1], x[2], x[3]).distance_squared;
@@ -40,7 +48,7 @@ double time_of_impact_lower_bound(const MovingFour& four, PairShape shape, doubl
     const double first = clearance();
     if (!(first > 0.0)) return 0.0;
     double time = 0.0, left = first;
-    for (int advance = 0; advance < tolerances::max_advances; ++advance) {
+    for (int advance = 0; advance < max_advances; ++advance) {
         const double next = time + (1.0 - tolerances::clearance_left) * left / speed;
         if (next >= latest) return latest;
         for (int i = 0; i < 4; ++i) x[i] = four.from[i] + next * motion[i];
@@ -56,7 +64,7 @@ double rounding_floor(const MovingFour& four) {
     for (int i = 0; i < 4; ++i) {
         largest = std::max({largest, four.from[i].cwiseAbs().maxCoeff(), four.to[i].cwiseAbs().maxCoeff()});
     }
-    return tolerances::rounding_of_coordinates * std::numeric_limits<double>::epsilon() * largest;
+    return rounding_of_coordinates * std::numeric_limits<double>::epsilon() * largest;
 }
 
 double clamped_distance(const MovingFour& four, double distance, double thickness) {

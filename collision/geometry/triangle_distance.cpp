@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
-#include "tolerances.h"
-
 namespace percale {
 namespace {
+
+/// |ab x ac|^2 over the longest edge to the fourth. Narrower triangles get their weights from cross products. Smaller: closest
+/// points on needles have no correct digit. Larger: slower.
+constexpr double sliver_area = 1e-6;
 
 PointTriangle at_vertex(const Vec3& p, const Vec3& x, int corner) {
     PointTriangle result{
@@ -79,7 +81,7 @@ PointTriangle closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, c
         return at_edge(p, b, c, from_b / (from_b + from_c), 1);
     // The sum is |ab x ac|^2 with the rounding of the longest edge to the fourth.
     const double sum = va + vb + vc, longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
-    if (!(sum > tolerances::sliver_area * longest * longest)) return on_sliver(p, a, b, c);
+    if (!(sum > sliver_area * longest * longest)) return on_sliver(p, a, b, c);
     return at_face(p, a, b, c, {va / sum, vb / sum, vc / sum});
 }
 

@@ -12,16 +12,30 @@
 namespace percale {
 namespace {
 
-double skin(double thickness, double displacement) {
-    return tolerances::box_skin * thickness + tolerances::box_skin_of_displacement * displacement;
-}
+/// Fraction of h, and of the displacement that a list is made for. Margin around a vertex within which its list is valid. Larger:
+/// longer lists, which are rebuilt less often. Cost alone.
+constexpr double box_skin = 0.4, box_skin_of_displacement = 0.2;
+
+/// Fraction of h. A pack is left out of a list if a plane keeps it farther away than h by this much. Below rounding (1e-15)
+/// contacts at h are missed.
+constexpr double hull_slack = 1e-6;
+
+/// Maximum number of packs in the lists, in all and for each vertex. A move that needs more is covered in part. Larger: more
+/// memory at once (12 bytes a pack). Smaller: a long move takes more calls.
+constexpr long max_packs = 500000, max_packs_per_vertex = 40;
+
+/// Vertices and clusters in a chunk of a pass over all of them, and clusters in a chunk of lists to rebuild. Cost alone. More:
+/// threads wait for the last chunk. Fewer: chunks cost more to hand out than to do.
+constexpr unsigned vertices_a_part = 1024, clusters_a_pass = 128, clusters_a_build = 4;
+
+double skin(double thickness, double displacement) { return box_skin * thickness + box_skin_of_displacement * displacement; }
 
 /// How far a point inside a box is from its sides; negative outside.
 double depth(const Box& box, const Vec3& x) { return std::min((x - box.low).minCoeff(), (box.high - x).minCoeff()); }
 
 /// Whether the plane keeps the pack out of the thickness of vertices that stay in their boxes.
 bool stays_above(const PackHull& hull, std::span<const int> vertices, const std::vector<Box>& boxes, double thickness) {
-    const double enough = hull.offset + (1.0 + tolerances::hull_slack) * thickness;
+    const double enough = hull.offset + (1.0 + hull_slack) * thickness;
     return std::all_of(vertices.begin(), vertices.end(), [&](int vertex) {
         const Box& box = boxes[vertex];
         const Vec3 twice_centre = box.low + box.high, sides = box.high - box.low;
@@ -208,8 +222,8 @@ void CandidateLists::set_displacements(const ClothMove& move, Workers* workers) 
             cluster_displacement_[i] = max;
         }
     };
-    parallel_for_chunks(workers, displacement_.size(), tolerances::vertices_a_part, of_vertices);
-    parallel_for_chunks(workers, memory_.lists.size(), tolerances::clusters_a_pass, of_clusters);
+    parallel_for_chunks(workers, displacement_.size(), vertices_a_part, of_vertices);
+    parallel_for_chunks(workers, memory_.lists.size(), clusters_a_pass, of_clusters);
 }
 
 /// Whether all cloth stays away from all obstacles' boxes. The distance is measured once and permits displacements up to it, so
@@ -265,7 +279,7 @@ double CandidateLists::cover(const ClothMove& move, const Obstacles& obstacles, 
 /// Finds the clusters whose lists are not valid for the move; from now on they count as lists of this version.
 void CandidateLists::find_dirty(const ClothMove& move, int version, Workers* workers) {
     uncovered_.resize(memory_.lists.size());
-    parallel_for_chunks(workers, uncovered_.size(), tolerances::clusters_a_pass, [&](std::size_t first, std::size_t last, int) {
+    parallel_for_chunks(workers, uncovered_.size(), clusters_a_pass, [&](std::size_t first, std::size_t last, int) {
         for (std::size_t i = first; i < last; ++i) uncovered_[i] = covers(i, move, version) ? 0 : 1;
     });
     dirty_.clear();
@@ -297,16 +311,15 @@ void CandidateLists::set_smallest_bounds(ClusterList& list) {
 
 /// Rebuilds the dirty lists; returns false, with unusable lists, if they would hold too many packs, unless `whatever_it_takes`.
 bool CandidateLists::rebuild(const ClothMove& move, const Obstacles& obstacles, bool whatever_it_takes, Workers* workers) {
-    const long max = whatever_it_takes
-                         ? std::numeric_limits<long>::max()
-                         : tolerances::max_packs + tolerances::max_packs_per_vertex * static_cast<long>(displacement_.size());
+    const long max = whatever_it_takes ? std::numeric_limits<long>::max()
+                                       : max_packs + max_packs_per_vertex * static_cast<long>(displacement_.size());
     empty_dirty(move);
     found_.resize(obstacles.size());
     for (std::size_t number = 0; number < obstacles.size(); ++number) obstacles[number]->find(query_boxes_, found_[number]);
     builds_.resize(workers ? workers->threads() : 1);
     // Whether there are too many does not depend on the thread or the order in which they are counted.
     std::atomic<long> listed = 0;
-    parallel_for_chunks(workers, dirty_.size(), tolerances::clusters_a_build, [&](std::size_t first, std::size_t last, int slot) {
+    parallel_for_chunks(workers, dirty_.size(), clusters_a_build, [&](std::size_t first, std::size_t last, int slot) {
         Build& build = builds_[slot];
         build.vertex_boxes.resize(displacement_.size());
         build.listed = 0;
@@ -393,7 +406,7 @@ void CandidateLists::advance(std::span<const Vec3> positions, double fraction, c
     const double part = obstacles_move ? fraction - memory_.seen_fraction : 0.0;
     memory_.seen_fraction = fraction;
     if (part != 0.0) gone_.resize(moved_.size());
-    constexpr std::size_t grain = tolerances::vertices_a_part;
+    constexpr std::size_t grain = vertices_a_part;
     max_moved_.assign(chunk_count(moved_.size(), grain), 0.0);
     parallel_for_chunks(workers, moved_.size(), grain, [&](std::size_t first, std::size_t last, int) {
         double max = 0.0;
@@ -408,10 +421,9 @@ void CandidateLists::advance(std::span<const Vec3> positions, double fraction, c
     });
     const bool moved = std::any_of(max_moved_.begin(), max_moved_.end(), [](double max) { return max > 0.0; });
     if (!moved && part == 0.0) return;
-    parallel_for_chunks(workers, memory_.lists.size(), tolerances::clusters_a_pass,
-                        [&](std::size_t first, std::size_t last, int) {
-                            for (std::size_t i = first; i < last; ++i) advance_list(i, part);
-                        });
+    parallel_for_chunks(workers, memory_.lists.size(), clusters_a_pass, [&](std::size_t first, std::size_t last, int) {
+        for (std::size_t i = first; i < last; ++i) advance_list(i, part);
+    });
 }
 
 /// A distance shrinks at most by the motion of the cloth relative to the drift of the obstacles, and by theirs relative to it.

@@ -11,17 +11,20 @@
 #include "geometry/cloth_clusters.h"
 #include "lists/contact_pair.h"
 #include "obstacle/obstacle.h"
-#include "tolerances.h"
 
 namespace percale {
+
+/// Fraction of a number. A bound in single precision is moved this far to be surely below, or above, the double that it stands
+/// for. See `rounded_up`.
+inline constexpr double rounded_off = 1e-6;
 
 using Obstacles = std::vector<std::unique_ptr<Obstacle>>;
 
 /// The largest number below x in single precision, or one near it.
-inline float below(double x) { return static_cast<float>(x - tolerances::rounded_off * std::abs(x)); }
+inline float below(double x) { return static_cast<float>(x - rounded_off * std::abs(x)); }
 
 /// The smallest number above x in single precision, or one near it.
-inline float above(double x) { return static_cast<float>(x + tolerances::rounded_off * std::abs(x)); }
+inline float above(double x) { return static_cast<float>(x + rounded_off * std::abs(x)); }
 
 /// A pack of obstacle features that can come near a cloth feature.
 struct ListedPack {

@@ -9,6 +9,14 @@
 namespace percale {
 namespace {
 
+/// Fraction of h. The edge-edge mollifier reaches 1 at the angle at which the ends of the edges are this much farther away than
+/// the middle. 0: Newton did not end where threads lie along facets (330 iterations a step instead of 8). Larger: crossings at
+/// small angles get too soft.
+constexpr double negligible_rise = 1e-3;
+
+/// A mollifier below it counts as 0. It covers rounding alone.
+constexpr double min_mollifier = 1e-12;
+
 std::array<Vec3, 3> corners(const Obstacle& obstacle, int triangle, double fraction) {
     const Triangle& t = obstacle.surface().triangles[triangle];
     return {obstacle.at(t[0], fraction), obstacle.at(t[1], fraction), obstacle.at(t[2], fraction)};
@@ -112,9 +120,8 @@ PairContact face_vertex_contact(const ContactPair& pair, std::span<const Vec3> c
 
 double edge_mollifier(const PairContact& contact, double thickness) {
     // At a distance d the ends are (crossing/2)^2/(2 d) farther off than the middle.
-    const double rise = contact.crossing * contact.crossing / (8.0 * thickness),
-                 x = rise / (tolerances::negligible_rise * thickness);
-    if (x < tolerances::min_mollifier) return 0.0;
+    const double rise = contact.crossing * contact.crossing / (8.0 * thickness), x = rise / (negligible_rise * thickness);
+    if (x < min_mollifier) return 0.0;
     return x < 1.0 ? x * (2.0 - x) : 1.0;
 }
 

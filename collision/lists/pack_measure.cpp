@@ -11,6 +11,10 @@
 namespace percale {
 namespace {
 
+/// Size of pack and cloth feature over the smallest height of their triangles or the smallest length of their edges. Above it
+/// single precision gives no information and a pair is measured exactly. Larger: bounds of needles have no correct digit.
+constexpr double max_sharpness = 1e4;
+
 const PackKernels& chosen_kernels() {
     const char* wish = std::getenv("PERCALE_INSTRUCTIONS");
     const bool narrow = wish != nullptr && std::string_view(wish) == "baseline";
@@ -23,7 +27,7 @@ bool set_shape(const ContactPair& pair, std::span<const Vec3> cloth, const Place
     if (pair.kind == PairKind::edge_edge) {
         query.length = static_cast<float>((cloth[pair.cloth[1]] - cloth[pair.cloth[0]]).norm());
         query.shortest_edge = placed.shortest_edge;
-        return std::min(query.length, query.shortest_edge) > query.size / static_cast<float>(tolerances::max_sharpness);
+        return std::min(query.length, query.shortest_edge) > query.size / static_cast<float>(max_sharpness);
     }
     double sharpness = static_cast<double>(placed.sharpness);
     if (pair.kind == PairKind::face_vertex) {
@@ -31,7 +35,7 @@ bool set_shape(const ContactPair& pair, std::span<const Vec3> cloth, const Place
     }
     sharpness = std::max(1.0, sharpness * size);
     query.sharpness = static_cast<float>(sharpness);
-    return sharpness < tolerances::max_sharpness;
+    return sharpness < max_sharpness;
 }
 
 }  // namespace

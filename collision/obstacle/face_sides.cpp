@@ -8,10 +8,21 @@
 
 #include "certificate/inside_test.h"
 #include "certificate/triangle_overlap.h"
-#include "tolerances.h"
 
 namespace percale {
 namespace {
+
+/// Fraction of lengths times areas. A neighbour lies clearly on one side of a triangle's plane above it, so that no exact test is
+/// needed. Cost alone while it is above 1e-15.
+constexpr double clear_side = 1e-9;
+
+/// Fraction of the obstacle's diagonal. The winding number beyond a face is computed this far from it. Too small: rounding keeps
+/// the point on the face. Too large: it lies beyond another face of a thin part, and a face is dropped or kept wrongly.
+constexpr double beyond_face = 1e-9;
+
+/// Maximum number of pairs of triangles that the search for internal faces tests, in all and for each triangle. With more pairs
+/// the search gives up and all faces stay: correct, with contacts inside the body's overlaps.
+constexpr long max_internal_tests = 2000000, max_internal_tests_per_triangle = 200;
 
 using certificate::BoxTree;
 using certificate::Corners;
@@ -51,7 +62,7 @@ bool clearly_on_one_side(const Solid& solid, int first, int other) {
     for (int k = 0; k < 3; ++k) {
         if (has_corner(solid.triangles[first], solid.triangles[other][k])) continue;
         const Vec3 from = solid.corners[other][k] - t[0];
-        const double height = normal.dot(from), little = tolerances::clear_side * normal.norm() * (from.norm() + t[0].norm());
+        const double height = normal.dot(from), little = clear_side * normal.norm() * (from.norm() + t[0].norm());
         if (std::abs(height) <= little || height * previous < 0.0) return false;
         previous = height;
     }
@@ -61,7 +72,7 @@ bool clearly_on_one_side(const Solid& solid, int first, int other) {
 /// Whether a ray lies in the closed sector between the rays a and b from the same point, within rounding.
 bool in_sector(const Vec3& ray, const Vec3& a, const Vec3& b) {
     const Vec3 normal = a.cross(b);
-    const double little = tolerances::clear_side * normal.norm() * ray.norm();
+    const double little = clear_side * normal.norm() * ray.norm();
     return std::abs(normal.dot(ray)) <= little && normal.dot(ray.cross(b)) >= -little * b.norm() &&
            normal.dot(a.cross(ray)) >= -little * a.norm();
 }
@@ -94,8 +105,7 @@ Meeting meeting_of(const Solid& solid, int i, int j) {
 /// Returns nothing where so many triangles lie side by side (a fan of n around one vertex has n^2/2 pairs) that it would take
 /// long.
 std::optional<std::vector<Meeting>> find_meetings(const Solid& solid) {
-    const long most_tests =
-        tolerances::max_internal_tests + tolerances::max_internal_tests_per_triangle * static_cast<long>(solid.triangles.size());
+    const long most_tests = max_internal_tests + max_internal_tests_per_triangle * static_cast<long>(solid.triangles.size());
     std::vector<Meeting> meeting(solid.triangles.size(), Meeting::none);
     long tests = 0;
     const auto visit = [&](int i, int j) {
@@ -137,7 +147,7 @@ std::vector<std::array<int, 3>> find_neighbours(std::span<const Triangle> triang
 FaceSides sides_of(const Solid& solid, int triangle) {
     const Corners& t = solid.corners[triangle];
     const Vec3 middle = (t[0] + t[1] + t[2]) / 3.0;
-    const double little = tolerances::beyond_face * (solid.tree.bounds().high - solid.tree.bounds().low).norm();
+    const double little = beyond_face * (solid.tree.bounds().high - solid.tree.bounds().low).norm();
     const Vec3 beyond = middle + little * (t[1] - t[0]).cross(t[2] - t[0]).normalized();
     const int winding = certificate::winding_number(beyond, solid.corners, solid.tree);
     if (winding == 0) return FaceSides::outward;

@@ -5,9 +5,16 @@
 #include "certificate/inside_test.h"
 #include "percale/certify.h"
 #include "percale/error.h"
-#include "tolerances.h"
 
 namespace percale {
+namespace {
+
+/// Fraction of coordinates. A box that is turned back to where the tree was built grows by this much. Below the rounding of two
+/// rotations (1e-15) patches are missed.
+constexpr double turned_box = 1e-9;
+
+}  // namespace
+
 Obstacle::Obstacle(const TriangleMesh& mesh, const Pose& pose, double friction, TreeFactory make_tree, SurfaceShape shape)
     : mesh_(mesh), built_(pose), start_pose_(pose), end_pose_(pose), friction_(friction), shape_(shape) {
     parts_ = std::make_unique<std::array<LockedPart, 16>>();
@@ -147,7 +154,7 @@ Box Obstacle::to_tree(const Box& box) const {
         turned.add(transform(built_, inverse_transform(start_pose_, x)));
     }
     // Two rotations have rounding errors.
-    turned.grow(tolerances::turned_box * (turned.low.cwiseAbs().maxCoeff() + turned.high.cwiseAbs().maxCoeff()));
+    turned.grow(turned_box * (turned.low.cwiseAbs().maxCoeff() + turned.high.cwiseAbs().maxCoeff()));
     return turned;
 }
 

@@ -11,6 +11,25 @@
 namespace percale {
 namespace {
 
+/// Triangles of the obstacle in a patch, the unit of a backend's tree. The order of the constraints depends on it, as on the
+/// cluster's.
+constexpr unsigned long triangles_per_patch = 16;
+
+/// Twice the area over the square of the longest edge. Narrower triangles have no normal that excludes contacts of an edge.
+/// Smaller: a wrong normal may exclude a real contact. Larger: cost alone.
+constexpr double needle_area = 1e-4;
+
+/// Twice the area over the square of the longest edge, of a triangle whose sharpness is bounded. Narrower ones are measured
+/// exactly.
+constexpr double flat_triangle_area = 1e-12;
+
+/// Constants of the cone of directions in which a vertex can be closest. `ray_below`: dot product of unit vectors up to which a
+/// ray is below an edge; 0 loses rays to rounding, the cone gets too narrow and contacts are missed. `parallel_edges`: length of
+/// a cross product below which two edges give no ray. The others affect cost alone: length of the sum of rays below which there
+/// is no cone; cosine of the widest cone worth a test; edges at the vertex worth the search.
+constexpr double ray_below = 1e-6, parallel_edges = 1e-3, min_ray_sum = 0.5, widest_cone = 0.2;
+constexpr unsigned long max_cone_edges = 16;
+
 constexpr double boundless = std::numeric_limits<double>::infinity();
 
 class PackMaker {
@@ -68,7 +87,7 @@ Vec3 normal_at(const Vec3& a, const Vec3& b, const Vec3& opposite) {
     const Vec3 normal = (b - a).cross(opposite - a);
     const double longest = std::max({(b - a).squaredNorm(), (opposite - a).squaredNorm(), (opposite - b).squaredNorm()});
     const double area = normal.norm();
-    return area > tolerances::needle_area * longest ? Vec3(normal / area) : Vec3(Vec3::Zero());
+    return area > needle_area * longest ? Vec3(normal / area) : Vec3(Vec3::Zero());
 }
 
 /// The normals of the two triangles at an edge, on one side of the surface; both zero if there are not exactly two.
@@ -90,13 +109,13 @@ struct Cone {
 /// Rays of the cone { d : d . e <= 0 for all edges e at the vertex }: products of two edges that keep the others below.
 std::vector<Vec3> extreme_rays(std::span<const Vec3> edges) {
     const auto are_below = [&](const Vec3& ray) {
-        return std::all_of(edges.begin(), edges.end(), [&](const Vec3& e) { return e.dot(ray) <= tolerances::ray_below; });
+        return std::all_of(edges.begin(), edges.end(), [&](const Vec3& e) { return e.dot(ray) <= ray_below; });
     };
     std::vector<Vec3> rays;
     for (std::size_t i = 0; i < edges.size(); ++i) {
         for (std::size_t k = 0; k < i; ++k) {
             const Vec3 product = edges[i].cross(edges[k]);
-            if (product.norm() < tolerances::parallel_edges) continue;
+            if (product.norm() < parallel_edges) continue;
             const Vec3 ray = product.normalized();
             if (are_below(ray)) rays.push_back(ray);
             if (are_below(-ray)) rays.push_back(-ray);
@@ -107,16 +126,16 @@ std::vector<Vec3> extreme_rays(std::span<const Vec3> edges) {
 
 Cone cone_at(const ObstacleSurface& surface, int vertex, const VertexPaths& paths) {
     const std::span<const int> ring = surface.neighbours(vertex);
-    if (ring.size() > tolerances::max_cone_edges) return {};
+    if (ring.size() > max_cone_edges) return {};
     std::vector<Vec3> edges;
     for (const int other : ring) edges.push_back((paths.start[other] - paths.start[vertex]).normalized());
     const std::vector<Vec3> rays = extreme_rays(edges);
     Vec3 sum = Vec3::Zero();
     for (const Vec3& ray : rays) sum += ray;
-    if (sum.norm() < tolerances::min_ray_sum) return {};
+    if (sum.norm() < min_ray_sum) return {};
     Cone cone{.axis = sum.normalized(), .cosine = 1.0};
     for (const Vec3& ray : rays) cone.cosine = std::min(cone.cosine, cone.axis.dot(ray));
-    return cone.cosine > tolerances::widest_cone ? cone : Cone{};
+    return cone.cosine > widest_cone ? cone : Cone{};
 }
 
 /// Where a pack's features are at a fraction of the step.
@@ -208,7 +227,7 @@ PackHull make_hull(const FeaturePack& pack, const ObstacleSurface& surface, cons
 double longest_over_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 u = b - a, v = c - a, w = c - b;
     const double area = u.cross(v).norm(), longest = std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()});
-    return area > tolerances::flat_triangle_area * longest ? std::sqrt(longest) / area : boundless;
+    return area > flat_triangle_area * longest ? std::sqrt(longest) / area : boundless;
 }
 
 ObstaclePacks make_packs(const ObstacleSurface& surface) {
@@ -218,8 +237,8 @@ ObstaclePacks make_packs(const ObstacleSurface& surface) {
     packs.place_of[1].assign(surface.edges.size(), -1);
     packs.place_of[2].assign(surface.vertices.size(), -1);
     PackMaker maker(surface, packs);
-    for (std::size_t from = 0; from < order.size(); from += tolerances::triangles_per_patch) {
-        maker.add_patch(std::span(order).subspan(from, std::min(tolerances::triangles_per_patch, order.size() - from)));
+    for (std::size_t from = 0; from < order.size(); from += triangles_per_patch) {
+        maker.add_patch(std::span(order).subspan(from, std::min(triangles_per_patch, order.size() - from)));
     }
     packs.box.resize(packs.first.size() / 3);
     packs.first.push_back(static_cast<int>(packs.packs.size()));

@@ -8,10 +8,17 @@
 
 #include "obstacle/face_sides.h"
 #include "percale/error.h"
-#include "tolerances.h"
 
 namespace percale {
 namespace {
+
+/// Twice the area over the square of the longest edge. Triangles with less are dropped when an obstacle is cleaned. Larger: real
+/// needles vanish from the surface. Smaller: triangles without a direction remain.
+constexpr double degenerate_area = 1e-14;
+
+/// Length of the sum of two unit vectors. Two triangles continue each other below it, and cloth does not meet their edge. Larger:
+/// ridges of finely meshed bodies are taken for flat, and cloth meets only their faces. Smaller: flat faces get edge contacts.
+constexpr double flat_fold = 1e-9;
 
 struct ByPlace {
     bool operator()(const Vec3& a, const Vec3& b) const { return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z()); }
@@ -32,7 +39,7 @@ std::vector<int> merge_vertices(std::span<const Vec3> vertices, int& merged) {
 bool has_area(std::span<const Vec3> x, const Triangle& t) {
     const Vec3 u = x[t[1]] - x[t[0]], v = x[t[2]] - x[t[0]], w = x[t[2]] - x[t[1]];
     const double longest = std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()});
-    return u.cross(v).norm() > tolerances::degenerate_area * longest;
+    return u.cross(v).norm() > degenerate_area * longest;
 }
 
 Triangle sorted(Triangle t) {
@@ -187,7 +194,7 @@ Fold fold(const ObstacleSurface& surface, int edge, std::span<const Vec3> x) {
     const Vec3 &a = x[e.vertex[0]], &b = x[e.vertex[1]];
     const Vec3 first = into_triangle(a, b, x[opposite[0]]), second = into_triangle(a, b, x[opposite[1]]);
     // Neither vector is 0: a triangle without area continues nothing.
-    const bool flat = first.dot(second) < 0.0 && (first + second).norm() <= tolerances::flat_fold;
+    const bool flat = first.dot(second) < 0.0 && (first + second).norm() <= flat_fold;
     return {.flat = flat, .height = second.dot(normal)};
 }
 
@@ -200,7 +207,7 @@ bool is_flat(const ObstacleSurface& surface, int edge, std::span<const Vec3> x) 
     const Vec3 along = x[b] - x[a], first = x[opposite[0]] - x[a], second = x[opposite[1]] - x[a];
     const double volume = along.cross(first).dot(second);
     const double lengths = along.squaredNorm() * first.squaredNorm() * second.squaredNorm();
-    constexpr double min = 2.0 * tolerances::flat_fold;
+    constexpr double min = 2.0 * flat_fold;
     return volume * volume <= min * min * lengths && fold(surface, edge, x).flat;
 }
 
@@ -219,8 +226,7 @@ std::vector<FaceSides> sides_at_edges(const ObstacleSurface& surface, std::span<
 /// Whether an edge is a valley seen from outside the solid. The free space at it is a wedge of less than half a turn, which
 /// contains no line through the edge: a cloth edge that comes there ends there, or meets a face first.
 bool is_free_valley(const Fold& fold, FaceSides sides) {
-    return (sides == FaceSides::outward && fold.height > tolerances::flat_fold) ||
-           (sides == FaceSides::inward && fold.height < -tolerances::flat_fold);
+    return (sides == FaceSides::outward && fold.height > flat_fold) || (sides == FaceSides::inward && fold.height < -flat_fold);
 }
 
 /// `sides` are those of the triangles of a closed surface; empty for others.

@@ -12,6 +12,19 @@
 namespace percale {
 namespace {
 
+/// Fraction of a pack's size. The kernels subtract it from a distance for some thirty roundings of single precision. Smaller:
+/// bounds exceed the distance, and contacts are missed. Larger: more pairs are measured exactly.
+constexpr float pack_rounding = 2e-6F;
+
+/// m^2 or m^4. Denominators of the kernels are at least this, so that points and needles cause no division by 0.
+constexpr float min_denominator = 1e-37F;
+
+/// Margins within which the kernels leave a decision to the exact measurement: a parameter along an edge of a triangle; an area
+/// outside a triangle as a fraction of its own; a rise as a fraction of the cloth edge; a parameter along two edges, and that per
+/// size over length; sin^2 between two edges; a cosine of a cone. Smaller: rounding refuses contacts. Larger: cost alone.
+constexpr float unsure_parameter = 1e-2F, unsure_area = 1e-2F, unsure_rise = 1e-4F;
+constexpr float unsure_crossing = 1e-4F, unsure_crossing_per_size = 4e-4F, unsure_parallel = 1e-3F, unsure_cone = 1e-3F;
+
 using Lanes = float __attribute__((vector_size(32)));
 using Mask = int __attribute__((vector_size(32)));
 

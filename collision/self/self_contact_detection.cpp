@@ -12,6 +12,15 @@
 namespace percale {
 namespace {
 
+/// Fraction of h below which every pair of the lists is in contact, a local minimum or not: near a seam the features that lie
+/// closer may be no pairs, as they share a stitched point. 0: nothing holds such a pair apart until the clamp stops it, and
+/// Newton makes no progress (3,000 iterations a step, distances of 1e-17 m). Large: one contact counts several times.
+constexpr double min_activation_ratio = 0.1;
+
+/// Within a step a contact takes a new activation distance only if it is more than this many times the one that it began with:
+/// from min_activation_ratio to that of a local minimum. 1: it grows with every move within a step.
+constexpr double widened_activation_ratio = 3.0;
+
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Whether a distance stays above its floor while it shrinks by `shrink`.
@@ -101,10 +110,9 @@ double SelfContactDetection::measure(SelfList& list, SelfPair& pair, std::span<c
                                      ContactConstraints& constraints) {
     const SelfPairContact contact = self_contact(pair, positions, lists_.surface());
     pair.reach = contact.distance + list.travel;
-    const double activation_distance = std::max(contact.activation_ratio, contact.crossing * tolerances::min_activation_ratio) *
+    const double activation_distance = std::max(contact.activation_ratio, contact.crossing * min_activation_ratio) *
                                        activation_distance_at(pair, list.seam_activation_distance(pair), contact.weight);
-    if (contact.distance < activation_distance &&
-        activation_distance > tolerances::widened_activation_ratio * list.activation_distance(pair))
+    if (contact.distance < activation_distance && activation_distance > widened_activation_ratio * list.activation_distance(pair))
         list.record_of(pair).activation_distance = activation_distance;
     const double begun = list.activation_distance(pair);
     if (contact.distance >= begun) return infinity;

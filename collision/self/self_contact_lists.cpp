@@ -13,6 +13,19 @@
 namespace percale {
 namespace {
 
+/// Fraction of h, and of the mean length of a vertex's edges: the lower is its skin. Two clusters may move against each other by
+/// it beyond a predicted move before their list is rebuilt; the first also bounds how far one may go before lists are searched
+/// for. See box_skin. Cost alone.
+constexpr double self_skin = 0.5, self_skin_of_edge = 0.125;
+
+/// Times the room that a step's move takes. The next step rebuilds lists and boxes that long trial moves have left with more.
+/// Small: they are rebuilt often. Large: they keep features that are far away. Cost alone.
+constexpr double max_room_ratio = 4.0;
+
+/// Maximum number of pairs of cloth with cloth that are considered for one move, in all and for each vertex; there may be one
+/// list for each `pairs_per_list` of them. See max_packs.
+constexpr long max_self_pairs = 4000000, max_self_pairs_per_vertex = 300, pairs_per_list = 16;
+
 double largest(std::span<const double> list) { return list.empty() ? 0.0 : *std::max_element(list.begin(), list.end()); }
 
 /// m, largest thickness that is set for a pair of the cloth, or for any pair if no cloth is given; 0 where none is set.
@@ -59,8 +72,8 @@ std::vector<double> skins(const ClothSurface& surface, std::span<const Vec3> res
     }
     std::vector<double> skins(rest.size());
     for (std::size_t v = 0; v < skins.size(); ++v) {
-        skins[v] = tolerances::self_skin * thickness[v];
-        if (edges[v] > 0.0) skins[v] = std::min(skins[v], tolerances::self_skin_of_edge * lengths[v] / edges[v]);
+        skins[v] = self_skin * thickness[v];
+        if (edges[v] > 0.0) skins[v] = std::min(skins[v], self_skin_of_edge * lengths[v] / edges[v]);
     }
     return skins;
 }
@@ -160,10 +173,9 @@ double SelfContactLists::cover_move(std::span<const Vec3> from, std::span<const 
     std::span<const Vec3> end = to;
     cloth_.forget_boxes();
     for (;;) {
-        const long max =
-            fraction < tolerances::min_covered_fraction
-                ? std::numeric_limits<long>::max()
-                : tolerances::max_self_pairs + tolerances::max_self_pairs_per_vertex * static_cast<long>(cloth_.rest.size());
+        const long max = fraction < tolerances::min_covered_fraction
+                             ? std::numeric_limits<long>::max()
+                             : max_self_pairs + max_self_pairs_per_vertex * static_cast<long>(cloth_.rest.size());
         set_motion(from, end);
         const auto has_lists = [&](Island& island) { return !set_rooms(island, from, end) || find_lists(island, max); };
         if (std::all_of(memory_.islands.begin(), memory_.islands.end(), has_lists) && make_stale(from, max)) break;
@@ -189,16 +201,16 @@ void SelfContactLists::give_up_lists_just_made() {
 void SelfContactLists::give_up_room(std::span<const Vec3> from, std::span<const Vec3> to) {
     for (const Island& island : memory_.islands) {
         for_each_swept(island, from, to, [&](int c, const Box& swept) {
-            const double margins = 2.0 * tolerances::self_skin * cloth_.clusters[c].thickness;
+            const double margins = 2.0 * self_skin * cloth_.clusters[c].thickness;
             const Box& room = memory_.rooms[c];
             const Vec3 wanted = swept.high - swept.low + Vec3::Constant(margins);
-            if ((room.high - room.low).sum() > tolerances::max_room_ratio * wanted.sum()) memory_.rooms[c] = Box{};
+            if ((room.high - room.low).sum() > max_room_ratio * wanted.sum()) memory_.rooms[c] = Box{};
         });
     }
     set_motion(from, to);
     for_each([&](SelfList& list) {
         const double wanted = shrink(list) + cloth_.clusters[list.first].skin + cloth_.clusters[list.second].skin;
-        if (!list.pairs.empty() && list.room - list.travel > tolerances::max_room_ratio * wanted) list.give_up();
+        if (!list.pairs.empty() && list.room - list.travel > max_room_ratio * wanted) list.give_up();
     });
 }
 
@@ -306,7 +318,7 @@ bool SelfContactLists::set_rooms(const Island& island, std::span<const Vec3> fro
         Box& room = memory_.rooms[c];
         if (room.contains(swept.low) && room.contains(swept.high)) return;
         room = swept;
-        room.grow(tolerances::self_skin * cloth_.clusters[c].thickness);
+        room.grow(self_skin * cloth_.clusters[c].thickness);
         left_[c] = 1;
     });
     return std::find(left_.begin(), left_.end(), 1) != left_.end();
@@ -325,7 +337,7 @@ bool SelfContactLists::find_lists(Island& island, long max) {
         }
     }
     tree_.refit(tree_boxes_);
-    if (!tree_.find_pairs(cluster_pairs_, max / tolerances::pairs_per_list)) {
+    if (!tree_.find_pairs(cluster_pairs_, max / pairs_per_list)) {
         for (const int c : tree_clusters_) memory_.rooms[c] = Box{};
         return false;
     }

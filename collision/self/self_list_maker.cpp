@@ -9,6 +9,19 @@
 namespace percale {
 namespace {
 
+/// A list may keep memory for this many elements beside twice what it holds; it reserves half of them, and an eighth of what it
+/// holds. Fewer: lists of cloth that hardly moves allocate. Cost alone.
+constexpr std::size_t spare_elements = 8;
+
+/// Fraction of the distance at rest below which two features of one cloth are in contact at the latest. Above 1: a mesh finer
+/// than its thickness pushes itself apart at rest. Small: a fold closes to nearly nothing at its crease.
+constexpr double rest_activation_ratio = 0.5;
+
+/// Minimum activation ratio of two features of one cloth, whatever their distance at rest: sheets of one mesh that lie edge to
+/// edge, or split along a line, would have no contact there. 0: only the clamp keeps them apart. Large: a mesh that is this much
+/// finer than its thickness pushes itself apart at rest.
+constexpr double min_rest_activation_ratio = 0.01;
+
 Box box_of(std::span<const int> vertices, std::span<const Vec3> positions) {
     Box box;
     for (const int v : vertices) box.add(positions[v]);
@@ -17,7 +30,7 @@ Box box_of(std::span<const int> vertices, std::span<const Vec3> positions) {
 
 /// m, thickness h of two features of one cloth that are `distance` apart at rest.
 double thickness_from_rest(double distance, double h) {
-    return std::min(h, std::max(tolerances::rest_activation_ratio * distance, tolerances::min_rest_activation_ratio * h));
+    return std::min(h, std::max(rest_activation_ratio * distance, min_rest_activation_ratio * h));
 }
 
 /// Copies the pairs that are in contact, with their records.
@@ -39,8 +52,8 @@ void keep_contacts(const SelfList& from, SelfList& to) {
 template <class Element>
 void transfer(const std::vector<Element>& from, std::vector<Element>& to) {
     const std::size_t count = from.size();
-    if (to.capacity() > 2 * count + tolerances::spare_elements) to = std::vector<Element>();  // `to = {}` would keep it
-    if (to.capacity() < count) to.reserve(count + count / 8 + tolerances::spare_elements / 2);
+    if (to.capacity() > 2 * count + spare_elements) to = std::vector<Element>();  // `to = {}` would keep it
+    if (to.capacity() < count) to.reserve(count + count / 8 + spare_elements / 2);
     to.assign(from.begin(), from.end());
 }
 
@@ -105,8 +118,7 @@ long SelfListMaker::fill(const SelfCloth& cloth, SelfList& list, std::span<const
     pair_ = cloth.pairs.of(a.cloth, b.cloth);
     keep_contacts(list, old_);
     list.begin(shrink_of(a, b) + a.skin + b.skin);
-    const bool is_fine =
-        tolerances::rest_activation_ratio * std::min(a.shortest, b.shortest) < std::max(a.thickness, b.thickness);
+    const bool is_fine = rest_activation_ratio * std::min(a.shortest, b.shortest) < std::max(a.thickness, b.thickness);
     const double thickness = 0.5 * (a.thickness + b.thickness);
     const Reach reach{.room = list.room, .thickness = thickness, .rest_counts = is_fine && a.cloth == b.cloth};
     const bool one = list.first == list.second;

@@ -9,6 +9,21 @@
 namespace percale {
 namespace {
 
+/// Sine (17 degrees). Edges whose closest points are interior are in contact below h where all faces beside them fall away by as
+/// much, below h/2 where they are flat, as vertices meet faces there, and not where one rises by as much; in between the ratio is
+/// linear. Smaller: cloth that bends a little gains and loses such contacts, and never comes to rest. Larger: ridges are no
+/// contacts, or one contact counts twice.
+constexpr double sharp_sine = 0.3;
+
+/// Sine (2 degrees). Edges at smaller angles have no contact of their own, but their ends have; the activation distance grows to
+/// all of h at twice the sine. 0: closest points jump from end to end of parallel threads.
+constexpr double min_crossing_sine = 0.03;
+
+/// Fraction of h, the thickness of the pair. Two edges of which the shorter rises by more over its length have a contact at any
+/// angle: the ends may be too far apart to hold them. Larger: long edges approach slowly until the clamp stops them for good.
+/// Smaller: closest points jump.
+constexpr double min_crossing_rise = 0.2;
+
 PointTriangle vertex_on_face(const SelfPair& pair, std::span<const Vec3> x) {
     return closest_on_triangle(x[pair.vertex[0]], x[pair.vertex[1]], x[pair.vertex[2]], x[pair.vertex[3]]);
 }
@@ -64,17 +79,17 @@ SelfPairContact vertex_face(const SelfPair& pair, std::span<const Vec3> x, const
 /// or boundary, 1/2 in flat cloth, 0 in a valley, and linear in between, by the steepest rise of the faces beside it.
 double edge_activation_ratio(const ClothSurface::Edge& edge, const Vec3& foot, const Vec3& towards, std::span<const Vec3> x) {
     if (edge.opposite[1] < 0) return 1.0;
-    double highest = -tolerances::sharp_sine;
+    double highest = -sharp_sine;
     for (const int vertex : edge.opposite) {
         const Vec3 along = x[vertex] - foot;
         highest = std::max(highest, along.dot(towards) / along.norm());  // not where 0/0
     }
-    return 0.5 * std::max(0.0, 1.0 - highest / tolerances::sharp_sine);
+    return 0.5 * std::max(0.0, 1.0 - highest / sharp_sine);
 }
 
 /// |e x f|^2 = (|e| |f| sin)^2 of two edges up to which they count as parallel, from |e|^2, |f|^2 and their thickness.
 double square_of_parallel(double first, double second, double thickness) {
-    const double sine = tolerances::min_crossing_sine, rise = tolerances::min_crossing_rise * thickness;
+    const double sine = min_crossing_sine, rise = min_crossing_rise * thickness;
     return std::min(sine * sine * first * second, rise * rise * std::max(first, second));
 }
 

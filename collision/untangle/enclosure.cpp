@@ -9,10 +9,20 @@
 
 #include "certificate/box_tree.h"
 #include "geometry/disjoint_sets.h"
-#include "tolerances.h"
 
 namespace percale {
 namespace {
+
+/// Number of sample points along each axis of the box about cloth, by which it is found what the cloth surrounds. More:
+/// untangling takes longer. Fewer: a skirt may leave the body that it was put on.
+constexpr int enclosure_places = 8;
+
+/// Fraction of the diagonal of that box by which it grows, so that no sample point is in the plane of flat cloth.
+constexpr double enclosure_room = 0.01;
+
+/// Cloth that surrounds at least this many sample points inside an obstacle must still surround it afterwards. Smaller: chance
+/// decides.
+constexpr int min_surrounded = 4;
 
 /// Half of the solid angle of a triangle about a point (van Oosterom and Strackee, The solid angle of a plane triangle, 1983).
 double half_solid_angle(const Vec3& point, const Vec3& first, const Vec3& second, const Vec3& third) {
@@ -23,9 +33,9 @@ double half_solid_angle(const Vec3& point, const Vec3& first, const Vec3& second
 
 /// The places of a grid in a box that are inside the obstacle; none is in the plane of a flat box.
 std::vector<Vec3> places_inside(certificate::Box box, const SolidObstacle& obstacle) {
-    constexpr int count = tolerances::enclosure_places;
+    constexpr int count = enclosure_places;
     static_assert(count % 2 == 0);
-    const Vec3 room = Vec3::Constant(tolerances::enclosure_room * (box.high - box.low).norm());
+    const Vec3 room = Vec3::Constant(enclosure_room * (box.high - box.low).norm());
     box.low -= room;
     box.high += room;
     std::vector<Vec3> places;
@@ -55,7 +65,7 @@ Enclosure::Enclosure(std::vector<Triangle> triangles, std::span<const Vec3> posi
 }
 
 bool Enclosure::lost(std::span<const Vec3> positions) const {
-    if (static_cast<int>(surrounded_.size()) < tolerances::min_surrounded) return false;
+    if (static_cast<int>(surrounded_.size()) < min_surrounded) return false;
     const std::vector<Vec3> centres = middles(positions);
     const auto left = static_cast<std::size_t>(std::count_if(
         surrounded_.begin(), surrounded_.end(), [&](const Vec3& place) { return surrounds(place, positions, centres); }));

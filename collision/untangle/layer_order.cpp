@@ -10,10 +10,16 @@
 #include "certificate/box_tree.h"
 #include "certificate/triangle_gap.h"
 #include "geometry/triangle_distance.h"
-#include "tolerances.h"
 
 namespace percale {
 namespace {
+
+/// Fraction of that gap. A place with this gap is left as it is, so that the rounds end.
+constexpr double enough_gap = 0.8;
+
+/// Fraction of area to the power 3/2. A cloth whose normals enclose less than three times that volume is a flat sheet. A tube ten
+/// times as long as wide encloses 0.1.
+constexpr double min_enclosing = 0.02;
 
 Vec3 area_normal(const Triangle& t, std::span<const Vec3> x) { return 0.5 * (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]); }
 
@@ -137,13 +143,13 @@ bool ask_outside(const LayeredCloth& cloth, const Sheet& lower, const Sheet& upp
     bool any = false;
     for (const int vertex : upper.vertices()) {
         const auto foot = lower.foot_of(upper, vertex);
-        if (!foot || foot->outside >= tolerances::enough_gap * cloth.gap) continue;
+        if (!foot || foot->outside >= enough_gap * cloth.gap) continue;
         requests.add(vertex, 1.0, (cloth.gap - foot->outside) * foot->normal);
         any = true;
     }
     for (const int vertex : lower.vertices()) {
         const auto foot = upper.foot_of(lower, vertex);
-        if (!foot || foot->outside <= -tolerances::enough_gap * cloth.gap) continue;
+        if (!foot || foot->outside <= -enough_gap * cloth.gap) continue;
         double squares = 0.0;
         for (const double weight : foot->weight) squares += weight * weight;
         for (int k = 0; k < 3; ++k) {
@@ -187,7 +193,7 @@ std::vector<double> outward_signs(std::span<const Triangle> triangles, std::span
         away[cloth[t]] += (centre(triangles[t]) - middle[cloth[t]] / area[cloth[t]]).dot(area_normal(triangles[t], x));
     }
     for (int k = 0; k < cloths; ++k) {
-        signs.push_back(away[k] < -tolerances::min_enclosing * area[k] * std::sqrt(area[k]) ? -1.0 : 1.0);
+        signs.push_back(away[k] < -min_enclosing * area[k] * std::sqrt(area[k]) ? -1.0 : 1.0);
     }
     return signs;
 }

@@ -4,12 +4,30 @@
 #include <iterator>
 
 #include "geometry/signed_depth_convex.h"
-#include "tolerances.h"
 #include "untangle/enclosure.h"
 #include "untangle/untangle_spread.h"
 
 namespace percale {
 namespace {
+
+/// (l - l0)/l0. A route that stretches an edge by more tears: others are preferred. The engine relaxes what is stretched.
+constexpr double max_stretch = 0.5;
+
+/// Factor by which a route that was too short grows, and how often the last growth is bisected. They affect cost, and how close
+/// the route is to the shortest.
+constexpr double reach_growth = 1.5;
+constexpr int reach_refinements = 4;
+
+/// Cosine between two directions above which they are one route. Smaller: routes are missed. Larger: searches are repeated.
+constexpr double same_direction = 0.999;
+
+/// Times h. Vertices that are farther away are not pushed to the nearest places of the surface.
+constexpr double farthest_push = 8.0;
+
+/// Limits at which untangling gives up: patches in all; rounds of one route; successive obstacles that cloth cannot be pushed out
+/// of at once; searches for conflicts. Larger: hopeless starts take longer (seconds now). Smaller: solvable ones are refused.
+constexpr int max_patches = 256, max_route_rounds = 60, max_push_failures = 64;
+constexpr long max_conflict_searches = 4000;
 
 /// A state that is being untangled.
 struct Tangle {
@@ -21,7 +39,7 @@ struct Tangle {
     mutable long searches = 0;  // number of searches for conflicts
 
     bool cancelled() const { return cloth.cancel != nullptr && *cloth.cancel; }
-    bool gives_up() const { return searches >= tolerances::max_conflict_searches || cancelled(); }
+    bool gives_up() const { return searches >= max_conflict_searches || cancelled(); }
     std::vector<int> conflicts(std::span<const Vec3> places, const std::vector<bool>& moved) const {
         ++searches;
         return find_conflicts(cloth, obstacles, places, moved);
@@ -47,7 +65,7 @@ struct Attempt {
     std::vector<bool> moved;
     double largest_move = 0.0, stretch = 0.0;
 
-    bool tears() const { return stretch > tolerances::max_stretch; }
+    bool tears() const { return stretch > max_stretch; }
     bool better_than(const Attempt& other) const {
         if (tears() != other.tears()) return other.tears();
         return tears() ? stretch < other.stretch : largest_move < other.largest_move;
@@ -93,7 +111,7 @@ Patch first_patch(const Tangle& tangle, std::vector<int> conflict) {
 void add_both(const Vec3& direction, std::vector<Vec3>& directions) {
     if (!(direction.norm() > 0.0)) return;
     for (const Vec3& side : {Vec3(direction.normalized()), Vec3(-direction.normalized())}) {
-        const auto same = [&](const Vec3& other) { return other.dot(side) > tolerances::same_direction; };
+        const auto same = [&](const Vec3& other) { return other.dot(side) > same_direction; };
         if (std::none_of(directions.begin(), directions.end(), same)) directions.push_back(side);
     }
 }
@@ -201,7 +219,7 @@ struct Reaches {
 
 /// Shortens the move of `good`, which is sufficient, towards one that is too short, by bisection.
 Attempt shortened(const Tangle& tangle, const Plan& plan, Reaches reaches, Attempt good) {
-    for (int k = 0; k < tolerances::reach_refinements && reaches.too_short < reaches.enough && !tangle.cancelled(); ++k) {
+    for (int k = 0; k < reach_refinements && reaches.too_short < reaches.enough && !tangle.cancelled(); ++k) {
         const double middle = 0.5 * (reaches.too_short + reaches.enough);
         Attempt shorter = attempt(tangle, plan, middle);
         std::vector<bool> core = plan.core;
@@ -218,14 +236,14 @@ std::optional<Attempt> follow(const Tangle& tangle, const Patch& patch, const Ro
     std::vector<bool> core(tangle.positions.size());
     for (const int v : patch.vertices) core[v] = true;
     double reach = route.reach, too_short = route.reach;
-    const double farthest = route.nearest ? tolerances::farthest_push * patch.margin : max;
-    for (int round = 0; round < tolerances::max_route_rounds && reach < farthest && !tangle.gives_up(); ++round) {
+    const double farthest = route.nearest ? farthest_push * patch.margin : max;
+    for (int round = 0; round < max_route_rounds && reach < farthest && !tangle.gives_up(); ++round) {
         Attempt found = attempt(tangle, {patch.obstacle, route, core}, reach);
         if (found.largest_move >= max) return std::nullopt;
         const Growth growth = grow_core(tangle, found, core);
         if (!growth.conflict) return shortened(tangle, {patch.obstacle, route, core}, {too_short, reach}, std::move(found));
         too_short = reach;
-        if (!growth.grown) reach *= tolerances::reach_growth;
+        if (!growth.grown) reach *= reach_growth;
     }
     return std::nullopt;
 }
@@ -309,13 +327,13 @@ std::optional<Untangled> untangle(const TangledCloth& cloth, std::span<const Sol
     std::vector<int> cause(positions.size(), -1);
     std::vector<int> conflict = conflicts_of(tangle);
     int failed = 0;
-    for (int k = 0; k < static_cast<int>(obstacles.size()) && failed < tolerances::max_push_failures; ++k) {
+    for (int k = 0; k < static_cast<int>(obstacles.size()) && failed < max_push_failures; ++k) {
         const Shallow end = push_out_shallow(k, conflict, tangle, cause);
         if (end == Shallow::nothing_to_do) continue;
         failed = end == Shallow::no_route ? failed + 1 : 0;
         if (end == Shallow::pushed_out) conflict = conflicts_of(tangle);
     }
-    for (int round = 0; round < tolerances::max_patches; ++round) {
+    for (int round = 0; round < max_patches; ++round) {
         const Patch patch = first_patch(tangle, std::move(conflict));
         if (patch.vertices.empty()) return Untangled{.positions = std::move(tangle.positions), .obstacle = std::move(cause)};
         if (holds_fixed(tangle, patch)) return std::nullopt;

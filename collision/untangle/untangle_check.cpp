@@ -10,6 +10,10 @@
 namespace percale {
 namespace {
 
+/// Fraction of h that moved cloth keeps from obstacles. Less than clamp_floor would start the run within the floor of clamps.
+/// Towards 1: narrow places have no exit.
+constexpr double untangled_gap = 0.25;
+
 using certificate::BoxTree;
 using certificate::Corners;
 using certificate::Overlap;
@@ -44,7 +48,7 @@ PlacedCloth place(const TangledCloth& cloth, std::span<const Vec3> x, const std:
         const Triangle& t = cloth.triangles[i];
         const Corners at = corners(x, t);
         const bool any = !moved.empty() && (moved[t[0]] || moved[t[1]] || moved[t[2]]);
-        const double gap = any ? tolerances::untangled_gap * cloth.thickness[t[0]] : 0.0;
+        const double gap = any ? untangled_gap * cloth.thickness[t[0]] : 0.0;
         certificate::Box box = certificate::box_of(at);
         box.low.array() -= gap;
         box.high.array() += gap;

@@ -7,12 +7,45 @@
 
 #include "geometry/joined_places.h"
 #include "percale/certify.h"
-#include "tolerances.h"
 #include "untangle/edge_crossings.h"
 #include "untangle/layer_order.h"
 
 namespace percale {
 namespace {
+
+/// Cloth through cloth. Fraction of the mean edge by which a round moves a vertex: a larger one overshoots thin layers, a smaller
+/// one takes more rounds. Length of a retreat vector (2 is the longest where an edge stands upright) at which half of the move is
+/// made: at 0 vertices whose retreat vectors nearly vanish jump about.
+constexpr double retreat_ratio = 0.05, min_retreat = 0.1;
+
+/// Strain that edges may have while cloth comes apart, and the number of sweeps over all edges in a round that enforce it. They
+/// affect cost, and how much the engine has to relax afterwards.
+constexpr double bond_slack = 0.05;
+constexpr int bond_sweeps = 4;
+
+/// Fraction of the mean edge. Vertices that a stitch holds nearer than this are one vertex while cloth comes apart. Larger: open
+/// seams are drawn together at once. Smaller: cloth is taken for torn where a seam gapes a little, and crosses itself there
+/// endlessly.
+constexpr double closed_stitch = 0.25;
+
+/// Fractions of the mean edge: the distance from a lower layer within which cloth is moved outside of it, and the gap to which it
+/// is moved. Larger reach: cloth is taken for that of the other side of a limb. Larger gap: cloth is stretched more.
+constexpr double layer_reach = 2.0, layer_gap = 0.05;
+
+/// Maximum number of rounds in which layers are ordered. It affects cost, and how deep layers may lie in each other.
+constexpr int max_layer_rounds = 60;
+
+/// Number of rounds without fewer crossings after which cloth near the last ones is smoothed, and the number of rings of vertices
+/// around them that are smoothed. Fewer rounds: folds are ironed that would have come apart. More rings: more cloth is moved.
+constexpr int idle_rounds_before_smoothing = 20, smoothed_rings = 2;
+
+/// All cloth is searched for crossings every `rounds_between_searches` rounds, and when none are known; the other rounds search
+/// `searched_rings` rings of vertices around those found last. Cost alone.
+constexpr int rounds_between_searches = 10, searched_rings = 3;
+
+/// Maximum number of rounds of untangling cloth from cloth, and of successive rounds without fewer crossings. Larger: hopeless
+/// starts take longer (16,000 triangles: 30 ms a round). Smaller: solvable ones are refused.
+constexpr int max_untangle_rounds = 600, max_idle_rounds = 100;
 
 /// Keeps two vertices as far apart as they were.
 struct Bond {
@@ -40,13 +73,13 @@ public:
             bonds_.push_back({edge.vertex, (mesh_.vertices[edge.vertex[0]] - mesh_.vertices[edge.vertex[1]]).norm()});
         }
         for (const Stitch& stitch : merged_.stitches) ties_.push_back({stitch, across(stitch, mesh_.vertices).norm()});
-        reach_ = tolerances::retreat_ratio * merged_.mean_edge();
+        reach_ = retreat_ratio * merged_.mean_edge();
     }
 
     std::optional<std::vector<Vec3>> run() {
         std::size_t fewest = std::numeric_limits<std::size_t>::max();
         int since_fewest = 0;
-        for (int round = 0; round < tolerances::max_untangle_rounds && !cancelled(); ++round) {
+        for (int round = 0; round < max_untangle_rounds && !cancelled(); ++round) {
             const std::vector<IntersectingPair> pairs = find_pairs(round);
             if (pairs.empty()) return clear_places();
             if (round == 0 && order_layers()) continue;
@@ -55,10 +88,10 @@ public:
                 fewest = pairs.size();
                 since_fewest = 0;
             }
-            if (since_fewest > tolerances::max_idle_rounds) return std::nullopt;
+            if (since_fewest > max_idle_rounds) return std::nullopt;
             move_back(crossings_of(pairs));
-            if (since_fewest > tolerances::idle_rounds_before_smoothing) smooth(of_one_layer(pairs));
-            for (int sweep = 0; sweep < tolerances::bond_sweeps; ++sweep) keep_lengths();
+            if (since_fewest > idle_rounds_before_smoothing) smooth(of_one_layer(pairs));
+            for (int sweep = 0; sweep < bond_sweeps; ++sweep) keep_lengths();
         }
         return std::nullopt;
     }
@@ -79,11 +112,9 @@ private:
         const std::vector<double> outwards = outward_signs(mesh_.triangles, cloth, mesh_.vertices);
         for (const int c : cloth) outwards_.push_back(outwards[c]);
         const double edge = merged_.mean_edge();
-        const LayeredCloth layered{
-            surface_, cloth, layer_, outwards, free_, tolerances::layer_reach * edge, tolerances::layer_gap * edge};
-        for (int round = 0; round < tolerances::max_layer_rounds && !cancelled() && push_outside(layered, mesh_.vertices);
-             ++round) {
-            for (int sweep = 0; sweep < tolerances::bond_sweeps; ++sweep) keep_lengths();
+        const LayeredCloth layered{surface_, cloth, layer_, outwards, free_, layer_reach * edge, layer_gap * edge};
+        for (int round = 0; round < max_layer_rounds && !cancelled() && push_outside(layered, mesh_.vertices); ++round) {
+            for (int sweep = 0; sweep < bond_sweeps; ++sweep) keep_lengths();
         }
         return true;
     }
@@ -115,14 +146,14 @@ private:
     /// The pairs that cross or touch, by the rules of the check of the start (triangles at one stitch may): all cloth is searched
     /// now and then and when no pairs are left, otherwise cloth near the crossings found then.
     std::vector<IntersectingPair> find_pairs(int round) {
-        if (round % tolerances::rounds_between_searches != 0) {
+        if (round % rounds_between_searches != 0) {
             const std::vector<IntersectingPair> pairs = pairs_among(near_);
             if (!pairs.empty()) return pairs;
         }
         std::vector<int> all(cloth_.triangles.size());
         std::iota(all.begin(), all.end(), 0);
         const std::vector<IntersectingPair> pairs = pairs_among(all);
-        const std::vector<bool> near = near_vertices(pairs, tolerances::searched_rings);
+        const std::vector<bool> near = near_vertices(pairs, searched_rings);
         std::erase_if(all,
                       [&](int t) { return std::ranges::none_of(cloth_.triangles[t], [&](int v) { return near[number_[v]]; }); });
         near_ = std::move(all);
@@ -184,7 +215,7 @@ private:
             if (!(length > 0.0)) continue;
             // The retreat vector is long where the edge lies flat: it becomes a direction, and is reduced where the curve would
             // hardly get shorter.
-            const Vec3 share = crossing.retreat / std::hypot(length, tolerances::min_retreat);
+            const Vec3 share = crossing.retreat / std::hypot(length, min_retreat);
             const auto add = [&](int vertex, double weight, double sign) {
                 moves[vertex] += sign * weight * share;
                 weights[vertex] += weight;
@@ -207,7 +238,7 @@ private:
     /// Moves crossing cloth, and cloth near it, half way to the mean of its neighbours: folds that hang on one vertex, or between
     /// two seams, have no shorter curve to go back to.
     void smooth(const std::vector<IntersectingPair>& pairs) {
-        const std::vector<bool> near = near_vertices(pairs, tolerances::smoothed_rings);
+        const std::vector<bool> near = near_vertices(pairs, smoothed_rings);
         const std::vector<Vec3> before = mesh_.vertices;
         for (std::size_t v = 0; v < near.size(); ++v) {
             if (!near[v] || free_[v] == 0.0) continue;
@@ -221,8 +252,7 @@ private:
     void keep_lengths() {
         for (const auto& [vertex, length] : bonds_) {
             Vec3 &a = mesh_.vertices[vertex[0]], &b = mesh_.vertices[vertex[1]];
-            const double now = (b - a).norm(), max = length * (1.0 + tolerances::bond_slack),
-                         min = length * (1.0 - tolerances::bond_slack);
+            const double now = (b - a).norm(), max = length * (1.0 + bond_slack), min = length * (1.0 - bond_slack);
             if ((now >= min && now <= max) || !(now > 0.0)) continue;
             const double one = free_[vertex[0]], other = free_[vertex[1]];
             if (one + other == 0.0) continue;
@@ -267,7 +297,7 @@ std::optional<std::vector<Vec3>> untangle_cloth(const CrossedCloth& cloth, std::
     const std::vector<Vec3> positions = joined_places(given, cloth.triangles);  // as in the check of the start
     // Sides slightly apart may be clear as they are and cross when they are drawn together: then all is repeated with them as
     // they are.
-    std::optional<std::vector<Vec3>> apart = Rounds(cloth, positions, tolerances::closed_stitch).run();
+    std::optional<std::vector<Vec3>> apart = Rounds(cloth, positions, closed_stitch).run();
     return apart || cloth.stitches.empty() ? apart : Rounds(cloth, positions, 0.0).run();
 }
 

@@ -13,6 +13,18 @@
 namespace percale {
 namespace {
 
+/// Barycentric. A ray meets a triangle up to this far beyond its rim, so that it does not slip through an edge between two of
+/// them.
+constexpr double ray_rim = 1e-9;
+
+/// Fraction of the obstacle's diagonal. Distance beyond an intersection at which it is tested whether a ray is outside. See
+/// beyond_face.
+constexpr double beyond_exit = 1e-9;
+
+/// Fraction of the triangle's size. A vertex nearer to its triangle leaves along the normal, because its own direction is
+/// rounding.
+constexpr double on_triangle = 1e-9;
+
 using certificate::Corners;
 
 /// Whether the ray from `point` along `direction` meets the box (slab test).
@@ -32,7 +44,7 @@ bool meets(const certificate::Box& box, const Vec3& point, const Vec3& direction
 
 /// Where the ray meets the triangle (Moeller and Trumbore 1997), its rim included; nothing where it misses or runs along it.
 std::optional<double> meeting(const Corners& t, const Vec3& point, const Vec3& direction) {
-    constexpr double rim = tolerances::ray_rim;
+    constexpr double rim = ray_rim;
     const Vec3 u = t[1] - t[0], v = t[2] - t[0], p = direction.cross(v);
     const double determinant = u.dot(p);
     if (determinant == 0.0) return std::nullopt;
@@ -64,7 +76,7 @@ std::optional<double> SolidObstacle::exit(const Vec3& point, const Vec3& directi
                    if (const auto place = meeting(triangles_[item], point, direction)) places.push_back(*place);
                });
     std::sort(places.begin(), places.end());
-    const double little = tolerances::beyond_exit * (tree_.bounds().high - tree_.bounds().low).norm();
+    const double little = beyond_exit * (tree_.bounds().high - tree_.bounds().low).norm();
     const auto leaves = [&](double place) { return !inside(point + (place + little) * direction); };
     const auto first = std::find_if(places.begin(), places.end(), leaves);
     return first == places.end() ? std::nullopt : std::optional(*first);
@@ -83,8 +95,7 @@ Vec3 SolidObstacle::pushed_out(const Vec3& point, double clearance) const {
     const Corners& t = triangles_[nearest];
     const Vec3 foot = closest_on_triangle(point, t[0], t[1], t[2]).point;
     const double size = (t[1] - t[0]).norm() + (t[2] - t[0]).norm();
-    const Vec3 out =
-        distance > tolerances::on_triangle * size ? Vec3((within ? foot - point : point - foot).normalized()) : normal_of(t);
+    const Vec3 out = distance > on_triangle * size ? Vec3((within ? foot - point : point - foot).normalized()) : normal_of(t);
     return foot + clearance * out;
 }
 

@@ -4,10 +4,12 @@
 #include <limits>
 #include <queue>
 
-#include "tolerances.h"
-
 namespace percale {
 namespace {
+
+/// Length lost by a move for each length along the cloth. 1: edges may double or vanish; 0.5 stretches them by at most 12 %.
+/// Small: cloth far away moves, too.
+constexpr double move_slope = 0.5;
 
 /// The size of a faded move at a vertex; larger ones are propagated first, at equal size the lower vertex (Dijkstra 1959).
 struct Front {
@@ -63,7 +65,7 @@ void spread_moves(const TangledCloth& cloth, std::span<const Vec3> positions, co
     for (int v = 0; v < cloth.vertex_count(); ++v) {
         if (core[v]) start.push_back({moves[v].norm(), v, v});
     }
-    const Reached reached = pass_on(cloth, positions, std::move(start), tolerances::move_slope, 0.0);
+    const Reached reached = pass_on(cloth, positions, std::move(start), move_slope, 0.0);
     for (int v = 0; v < cloth.vertex_count(); ++v) {
         const int source = reached.source[v];
         if (!core[v]) moves[v] = Vec3::Zero();

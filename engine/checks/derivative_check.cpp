@@ -5,10 +5,17 @@
 #include <cstdint>
 #include <sstream>
 
-#include "tolerances.h"
-
 namespace percale {
 namespace {
+
+/// Fraction of the vertex's own value, and of the largest of all.
+constexpr double derivative_accuracy = 1e-4, derivative_floor_accuracy = 1e-5;
+
+/// Fraction that rounding leaves of sums of forces and of energies.
+constexpr double derivative_rounding = 1e-12;
+
+/// Chunks of vertices whose energy slope is compared by itself. Fewer: a wrong force hides among more right ones.
+constexpr int derivative_chunks = 16;
 
 /// A value between -1 and 1, the same for the same number (splitmix64; Steele, Lea and Flood, OOPSLA 2014).
 double spread(std::uint64_t number) {

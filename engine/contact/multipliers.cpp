@@ -2,10 +2,15 @@
 
 #include <algorithm>
 
-#include "tolerances.h"
-
 namespace percale {
 namespace {
+
+/// Smallest mollifier of a constraint that receives forces of others. Smaller: forces go to constraints that hardly act.
+constexpr double min_transfer_ratio = 0.5;
+
+/// Cosine between the directions of constraints that pass forces on to each other. Less: they may lie on two sides of a gap. 1:
+/// forces stay behind where facets turn.
+constexpr double min_transfer_cosine = 0.9;
 
 constexpr int any_feature = -2;  // of an obstacle
 

@@ -8,6 +8,25 @@
 namespace percale {
 namespace {
 
+/// Fraction of the step matrix that the contact stiffness takes. Smaller: cloth sinks in. Larger: Newton takes longer.
+constexpr double penalty_stiffness_ratio = 0.5;
+
+/// Factor of the load on a constraint over h, which is its minimum stiffness. At 4 cloth rests at 3/4 h or more.
+constexpr double static_load_factor = 4.0;
+
+/// Fraction of h that an obstacle moves along the normal in a step; beyond it contact stiffness follows from this step's length
+/// alone. Smaller: obstacles that hardly move throw up what lies on them. Larger: fast ones meet cloth whose contact is too
+/// soft.
+constexpr double moving_obstacle_ratio = 0.2;
+/// Fraction of h within which contact in a substep shorter than its step stops cloth at the speed of a moving obstacle. Stages
+/// of TR-BDF2 are as stiff as their length makes them where the obstacle moves by moving_obstacle_ratio. Smaller: adaptive steps
+/// throw cloth.
+constexpr double stopping_ratio = 1.0 / 12.0;
+
+/// Fraction of h. A constraint's distance at the start of a move counts as at least this: the ledger's potential has no bound at
+/// 0.
+constexpr double min_start_ratio = 1e-3;
+
 /// Combines values a_k of a constraint's vertices: the weighted mean against an obstacle; between cloths, where both sides give
 /// way, 1 / sum w_k^2/a_k.
 template <class Value>

@@ -9,6 +9,17 @@
 namespace percale {
 namespace {
 
+/// Fraction of the step matrix that the stiffness of a projected constraint has. Smaller: more rounds of multipliers. Larger:
+/// each takes Newton longer.
+constexpr double projection_stiffness_ratio = 1.0;
+
+/// s, time constant with which cloth that is too near comes back to h. Shorter: it is thrown off. Longer: it stays too near.
+constexpr double thickness_recovery_time = 0.05;
+
+/// Fraction of the activation distance beyond its target within which a constraint's force ends. 1: constraints that leave the
+/// activation distance still push.
+constexpr double multiplier_activation_ratio = 0.9;
+
 constexpr ConstraintClearance leaving{.activation_ratio = projection_activation_ratio, .ratio = contact_accuracy};
 
 /// One constraint at one point of the search.

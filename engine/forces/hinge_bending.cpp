@@ -3,10 +3,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "tolerances.h"
-
 namespace percale {
 namespace {
+
+/// Square of the sine between an edge and its neighbour at one vertex. A narrower triangle has no direction any more, and its
+/// hinge no angle. 0: a division by 0.
+constexpr double min_hinge_sine_square = 1e-28;
 
 Vec3 bent(const Hinge& hinge, const Vec3Arrays& x) {
     Vec3 u = Vec3::Zero();

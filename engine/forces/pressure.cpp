@@ -4,10 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include "tolerances.h"
-
 namespace percale {
 namespace {
+
+/// Pa, of the air around the cloth (the standard atmosphere at sea level), which compresses an amount of gas. Larger: cloth that
+/// encloses gas is stiffer against a change of its volume.
+constexpr double air_pressure = 101325.0;
 
 bool is_filled(const Fabric& fabric) { return fabric.pressure || fabric.gas_volume; }
 

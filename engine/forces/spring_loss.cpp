@@ -1,10 +1,13 @@
 #include "spring_loss.h"
 
 #include "springs.h"
-#include "tolerances.h"
 
 namespace percale {
 namespace {
+
+/// m. Shorter springs have no direction and no force; the kernels hold the square (kernels/spring_kernel.inl). If the two
+/// differ, the ledger counts forces that did not act.
+constexpr double min_spring_length = 1e-18;
 
 Vec3 between(const SpringNetwork& network, const Vec3Arrays& x, int spring) {
     return x.at(network.first[spring]) - x.at(network.second[spring]);

@@ -10,6 +10,13 @@
 namespace percale {
 namespace {
 
+/// Slices. Springs in bands are summed in chunks of this length: each begins with the springs of the guard before it once more.
+/// Cost alone; the order of sums depends on it.
+constexpr int band_chunk_slices = 128;
+
+/// Squares of lengths that are smaller by this factor are smaller by more than rounding. Cost alone.
+constexpr double strain_rounding = 1.0 - 1e-12;
+
 double square_length(const SpringNetwork& network, const Vec3Arrays& x, int k) {
     const int i = network.first[k], j = network.second[k];
     const double dx = x.x[i] - x.x[j], dy = x.y[i] - x.y[j], dz = x.z[i] - x.z[j];

@@ -3,10 +3,24 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "tolerances.h"
-
 namespace percale {
 namespace {
+
+/// Fraction of the strongest pair at one end from which a pair is strong; the second value serves where the first keeps too many
+/// vertices. Larger: coarser levels stay large. Smaller: they are poor where springs differ in stiffness.
+constexpr double strong_pair_ratio = 0.25, lower_pair_ratio = 0.03;
+
+/// Fraction of vertices kept, above which weaker pairs count too.
+constexpr double max_kept_ratio = 0.4;
+
+/// Fraction of the largest interpolation weight below which a weight is dropped. Smaller: denser levels.
+constexpr double min_weight_ratio = 0.03;
+
+/// Regularisation of the second moment for each candidate: all may lie in a plane, or on a line. 0: a singular matrix.
+constexpr double moment_regularisation = 1e-3;
+
+/// m^2. Squares of distances between candidates are at least this, so that none divides by 0.
+constexpr double min_candidate_square = 1e-24;
 
 constexpr int max_weights = 3;
 constexpr int max_candidates = max_weights + 2;

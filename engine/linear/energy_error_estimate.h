@@ -10,6 +10,13 @@
 
 namespace percale {
 
+/// Ratio of energy gains from one window to the next. Below it they fall fast, and the last window alone gives the estimate of
+/// future gains. Larger: badly conditioned systems count as solved too early. (Inline, as a header reads it.)
+inline constexpr double slow_gain_ratio = 0.8;
+
+/// The largest ratio in the sum of the future gains. 1: no bound.
+inline constexpr double max_gain_ratio = 0.99;
+
 /// Vertices that nothing holds. Their unbalanced momentum after a solve is the sum of their residuals; it may be at most
 /// `max_momentum`, kg m/s.
 struct NetLimit {

@@ -9,6 +9,16 @@
 namespace percale {
 namespace {
 
+/// Coefficient of a finer pair's block in a coarser one. Smaller ones are left out. Larger: coarser levels miss stiffness.
+constexpr double min_galerkin_coefficient = 1e-4;
+
+/// Fraction of vertices that a coarser level may keep; with more it gains nothing and the hierarchy ends.
+constexpr double max_coarse_ratio = 0.8;
+
+/// Levels of multigrid. Fewer: the bottom may be too large to be inverted. The second number counts the vertices of a level that
+/// are sorted by degree together: cost alone.
+constexpr int max_multigrid_levels = 12, level_sorting_window = 128;
+
 struct Entry {
     int index;
     double weight;

@@ -8,6 +8,15 @@
 namespace percale {
 namespace {
 
+/// Iterations of block Jacobi from which multigrid is cheaper, and after which a solve goes on with multigrid. Coarser levels
+/// are made anew when iterations exceed those of their first solve by a factor and by a number. Cost alone.
+constexpr int dear_jacobi_iterations = 25, max_jacobi_iterations = 40;
+constexpr int stale_level_factor = 2, stale_level_excess = 2;
+
+/// Vertices up to which `automatic` factorises where iterative solvers are not exact enough. More: steps take seconds. Fewer:
+/// small cloth with slivers is not solved exactly.
+constexpr int max_factorised_vertices = 2000;
+
 bool has_slivers(const ClothModel& model) {
     return std::any_of(model.cloths.begin(), model.cloths.end(),
                        [&](const ClothRange& cloth) { return largest_aspect(model, cloth) > sliver_aspect; });

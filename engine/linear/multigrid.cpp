@@ -8,6 +8,10 @@
 namespace percale {
 namespace {
 
+/// Factor of the damping at vertices sewn to points, whose eigenvalues go up to 3. 1: conjugate gradient takes hundreds of
+/// iterations where sewn points are stiffer than the cloth.
+constexpr float sewn_point_easing = 2.0f / 3.0f;
+
 using Block = std::array<double, 6>;
 
 Block block_product(const Block& a, const Block& b) {

@@ -3,10 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tolerances.h"
-
 namespace percale {
 namespace {
+
+/// Fraction of the residual down to which floats are trusted. Smaller: iterations that gain nothing. Larger: more refinements.
+constexpr double float_residual = 1e-4;
+
+/// Refinements of a solve in floats by residuals in doubles; the fraction of the wanted residual that one aims at; and the
+/// fraction of the previous residual that it may leave: with more, floats have broken down.
+constexpr int max_refinements = 12;
+constexpr double float_aim_ratio = 0.5, max_refined_ratio = 0.5;
 
 /// One solve: functions that share the system and its work space.
 class MixedSolve {

@@ -2,10 +2,12 @@
 #include <cmath>
 
 #include "percale/mesh.h"
-#include "tolerances.h"
 
 namespace percale {
 namespace {
+
+/// Radians. Below it the chord between two turns differs from the arc by less than rounding, and sines would divide 0 by 0.
+constexpr double min_arc = 1e-5;
 
 double dot(const Rotation& p, const Rotation& q) { return p.w * q.w + p.x * q.x + p.y * q.y + p.z * q.z; }
 

@@ -9,6 +9,13 @@
 namespace percale {
 namespace {
 
+/// Radians up to which a triangle of a rest shape lies on its neighbour and both count as unfolded. 0: rounding decides.
+constexpr double rest_fold = 1e-6;
+
+/// Fraction of a given warp that must lie in the plane of each triangle. Smaller: warp is rounding there. Larger: bodies of
+/// cloth that curve away from it are refused.
+constexpr double min_warp_ratio = 1e-3;
+
 /// A triangle beside an edge: the ends of the edge, and the opposite vertex.
 struct EdgeSide {
     Vec3 low = Vec3::Zero(), high = Vec3::Zero(), opposite = Vec3::Zero();

@@ -4,10 +4,16 @@
 #include <cmath>
 
 #include "percale/error.h"
-#include "tolerances.h"
 
 namespace percale {
 namespace {
+
+/// Twice the area over the square of the longest edge. Triangles with less are refused: their height is rounding. Smaller: a
+/// triangle without a direction gets into the model. Larger: real needles are refused.
+constexpr double min_triangle_area = 1e-12;
+
+/// Volume over area^1.5 of a closed mesh (0.094 for a ball). A mesh with less is flat: its volume is rounding.
+constexpr double min_enclosed_ratio = 1e-9;
 
 std::string edge_text(std::array<int, 2> edge) {
     return "edge (" + std::to_string(edge[0]) + ", " + std::to_string(edge[1]) + ")";

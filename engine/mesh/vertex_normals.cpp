@@ -4,9 +4,14 @@
 #include <algorithm>
 #include <vector>
 
-#include "tolerances.h"
-
 namespace percale {
+namespace {
+
+/// Areas of the triangles around a vertex, summed with their directions, over the products of their edges. A vertex with less
+/// has no normal. Smaller: rounding counts as a normal. Larger: needles have no normal.
+constexpr double min_normal_ratio = 1e-12;
+
+}  // namespace
 
 void vertex_normals(const NormalMesh& mesh, std::span<Vec3> normals) {
     std::ranges::fill(normals, Vec3::Zero());

@@ -5,10 +5,16 @@
 #include <cstdint>
 #include <numeric>
 
-#include "tolerances.h"
-
 namespace percale {
 namespace {
+
+/// Bits of each axis along the curve that orders the vertices; three axes fit into 63. Fewer: vertices of a fine mesh share a
+/// cell and keep their order. Cost alone.
+constexpr int curve_key_bits = 20;
+
+/// Vertices along the curve that are sorted by their springs: 16 slices, 8 KB of positions. More: neighbours lie farther apart
+/// in memory. Fewer: more padding. Cost alone.
+constexpr std::size_t vertex_sorting_window = 256;
 
 using Cell = std::array<std::uint32_t, 3>;
 

@@ -3,10 +3,15 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "tolerances.h"
-
 namespace percale {
 namespace {
+
+/// Fraction of the places of all bands that springs must fill. Springs that fill fewer are kept in slices. Cost alone.
+constexpr double min_band_filling = 0.7;
+
+/// Vertices. Wider grids leave the caches: the many arrays that bands read side by side are then slower than slices, which read
+/// one (percale_force_cost at N = 257: a product took 1.5 times as long). Cost alone.
+constexpr std::size_t longest_band_guard = 512;
 
 std::vector<int> slice_starts(const std::vector<int>& degree, int slices) {
     std::vector<int> start(1, 0);

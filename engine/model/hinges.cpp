@@ -7,10 +7,19 @@
 
 #include "mesh/rest_edges.h"
 #include "mesh/topology.h"
-#include "tolerances.h"
 
 namespace percale {
 namespace {
+
+/// Radians. Smaller rest angles count as 0, those between triangles that curve with a radius of a thousand edges or more.
+/// Smaller: the rounding of a file makes hinges of flat panels curved (8 digits: by 4e-5), which costs more and takes long to
+/// solve where cloth folds together.
+constexpr double min_rest_angle = 1e-3;
+
+/// Fraction of a cell's size (of its square, for its corner's cosine). A grid whose cells differ by less is regular and gets
+/// hinges along its lines. Smaller: grids given in single precision get hinges of triangles. Larger: bending has an error of
+/// that size.
+constexpr double grid_cell_error = 1e-6;
 
 /// A triangle on one side of an edge: its height over the edge, and the foot of the height, from 0 at the edge's first vertex to
 /// 1 at its second.

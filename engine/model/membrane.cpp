@@ -7,10 +7,12 @@
 #include "mesh/rest_edges.h"
 #include "mesh/topology.h"
 #include "percale/error.h"
-#include "tolerances.h"
 
 namespace percale {
 namespace {
+
+/// Fraction of the shear modulus by which a fabric may differ from an isotropic one and count as isotropic.
+constexpr double isotropic_shear_error = 1e-3;
 
 double mean_modulus(const Fabric& fabric) {
     const auto [warp, weft] = *fabric.stretch_stiffness;

@@ -8,6 +8,9 @@
 namespace percale {
 namespace {
 
+/// N/m: limit of an edge without stiffness, whose ends are sewn together. 0: a division by 0.
+constexpr double min_limited = 1e-12;
+
 double length_of(const LimitedEdge& edge, const SpringNetwork& network, const Vec3Arrays& x) {
     return (x.at(network.first[edge.spring]) - x.at(network.second[edge.spring])).norm();
 }

@@ -14,6 +14,27 @@
 namespace percale {
 namespace {
 
+/// Power iterations for the highest frequency. Fewer: the frequency is too low, and the stable step too long.
+constexpr int power_iterations = 40;
+
+/// Fraction of the estimated stable step that `automatic` takes. 1: the estimate is an upper bound, and cloth may diverge.
+constexpr double stable_step_ratio = 0.8;
+
+/// s. The step that `automatic` assumes for adaptive TR-BDF2 where it compares costs.
+constexpr double usual_implicit_step = 1.0 / 240;
+
+/// w dt of trapezoid and implicit midpoint from which a plan warns that they ring.
+constexpr double max_ringing_phase = 3.0;
+
+/// Vertices above which a plan warns of one Newton iteration a step.
+constexpr int fine_sheet_vertices = 4000;
+
+/// Largest number of parts of a step, far more than are cheaper than an implicit one.
+constexpr int max_explicit_parts = 1000;
+
+/// Fraction of a spring's length in the differences of the forces of triangles and hinges. Smaller: rounding. Larger: curvature.
+constexpr double shape_difference_ratio = 1e-5;
+
 std::string rough_number(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.2g", value);

@@ -6,10 +6,21 @@
 #include <limits>
 
 #include "schemes.h"
-#include "tolerances.h"
 
 namespace percale {
 namespace {
+
+/// Shorter stable steps count as none. The second number is the factor from one trial to the next. Larger: a gap of the stable
+/// region may be stepped over. Cost.
+constexpr double min_stable_step = 1e-6, stable_step_march = 1.02;
+
+/// Fraction of |R| that rounding adds to 1. 0: stable steps are found unstable.
+constexpr double growth_rounding = 1e-12;
+
+/// Where the search ends: no Taylor polynomial of degree 4 or less is stable there. The second number counts the halvings of the
+/// interval in which stability is lost; 53 exhaust a double.
+constexpr double beyond_stable_step = 4.0;
+constexpr int stable_step_halvings = 60;
 
 using Complex = std::complex<double>;
 

@@ -8,6 +8,10 @@
 namespace percale {
 namespace {
 
+/// Fraction of its momentum that a linear solve with contact may leave in a body that nothing holds. Larger: sheets that slide
+/// tremble, and friction between cloths is too large. Smaller: more linear iterations.
+constexpr double net_momentum_ratio = 0.05;
+
 void set_prescribed(const StageEquations& equations, Vec3Arrays& direction) {
     const ImplicitStage& stage = equations.stage();
     set_zero(stage.scene.compute, direction, stage.scene.model.vertex_count());

@@ -8,6 +8,41 @@
 namespace percale {
 namespace {
 
+/// Strong Wolfe constant: the slope beyond the minimum, over the first slope's size, up to which a step is accepted whatever the
+/// objective is: friction is not in it, and steps that overshoot by more oscillate for ever. It is smaller where contact is
+/// projected, unless the step changes little: constraints that were in no matrix stop the cloth half-way, and the next step
+/// would lead back as far.
+constexpr double strong_wolfe_constant = 0.9, max_projected_slope = 0.3;
+
+/// The strong Wolfe constant where the objective is flat to rounding or not known, and the slope decides.
+constexpr double gentle_slope = 0.9;
+
+/// Armijo constant: the fraction of the first slope by which the objective has to fall. Towards 1: good steps are shortened.
+constexpr double armijo_constant = 1e-4;
+
+/// Fraction of the objective by which it may rise and count as flat. 0: rounding refuses the last steps of a solve.
+constexpr double flat_objective = 1e-9;
+
+/// Slope over the objective below which slopes are rounding. 0: a search at the solution never ends.
+constexpr double flat_slope = 1e-12;
+
+/// The smallest and the largest factor of the next trial, and the one where the secant gives none.
+constexpr double min_shortening = 0.15, max_shortening = 0.6, blind_shortening = 0.5;
+
+/// Fraction of the first slope that is left after a full step, from which on a longer step pays for its evaluation.
+constexpr double slope_left_ratio = 0.6;
+
+/// The longest step by the secant, and the smallest relative fall of the slope by which the secant divides.
+constexpr double longest_secant_step = 3.0, min_secant_fall = 0.1;
+
+/// Fraction of a slope that has turned which trial contacts, out of range until then, must cause: then a new direction is found
+/// with them in the matrix. Larger: the step is shortened instead, again and again while sheets land. Smaller: directions are
+/// found in vain.
+constexpr double trial_slope_ratio = 0.5;
+
+/// Relative. Smaller moves are rounding of positions (a few units in the last place of a double).
+constexpr double position_rounding = 1e-15;
+
 double slope_at(const StageEquations& equations, const StagePoint& point) {
     return dot(equations.stage().scene.compute, point.residual, equations.space().direction);
 }

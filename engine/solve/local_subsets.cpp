@@ -12,6 +12,18 @@
 namespace percale {
 namespace {
 
+/// Largest number of vertices that subsets begin with: a fraction of all, but not less than a number. More: subsets cost what
+/// all cloth does.
+constexpr double max_subset_vertices = 0.02;
+constexpr int few_subset_vertices = 20;
+
+/// Fractions of the residual's square: what these vertices are chosen to hold, and what they must hold for subsets to pay.
+constexpr double subset_square = 0.95, min_subset_square = 0.8;
+
+/// When the solve of a subset ends: at this fraction of its residual, or after so many iterations.
+constexpr double subset_residual_ratio = 0.1;
+constexpr int max_subset_iterations = 8;
+
 /// Sets |r_i|^2/m_i of each vertex of bodies that are not settled, 0 of others; returns the sum.
 double set_squares(const StageEquations& equations, std::vector<double>& squares) {
     const ClothModel& model = equations.stage().scene.model;

@@ -15,6 +15,24 @@
 namespace percale {
 namespace {
 
+/// s beyond the time limit of a step that a linear solve may take. 0: a solve that ends at its first iteration gives velocities
+/// of 50 m/s. Minutes: a step whose solve does not end exceeds the limit.
+constexpr double linear_grace_s = 0.5;
+
+/// Fraction of the allowed change (StepSettings::newton_error_ratio) where the change is only estimated. Larger: changes that
+/// are not small count as small. Smaller: more iterations.
+constexpr double estimate_safety = 0.4;
+
+/// Newton iterations of a solve after which the nonlinear elimination of local subsets begins. Fewer: solves that soon end pay
+/// for it. More: layers that slide on each other take two to three times as many.
+constexpr int iterations_before_subsets = 8;
+
+/// Rounds of contact multipliers in one stage. Fewer: projected contact is left inexact.
+constexpr int max_contact_rounds = 6;
+
+/// Largest error of contact, fraction of h: contact less exact takes another round, however large the time error is.
+constexpr double contact_round_ratio = 0.01;
+
 /// The state of the search for a motion.
 struct Search {
     std::optional<double> first_norm;    // the reference of residuals, in all rounds of contact correction

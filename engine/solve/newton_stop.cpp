@@ -9,6 +9,32 @@
 namespace percale {
 namespace {
 
+/// Largest StepSettings::newton_error_ratio in adaptive steps. Larger: the solver's error exceeds the tolerance.
+constexpr double max_adaptive_ratio = 0.25;
+
+/// h over the smallest change that means something without contact (2e-5 h). Smaller: cloth near rest is left unsolved.
+constexpr double thickness_over_smallest_change = 5e4;
+
+/// Fraction of an adaptive stage's allowance below which a change means nothing.
+constexpr double negligible_allowance_ratio = 0.1;
+
+/// How much more a cloth's worst vertex may change than its mean: a factor of its allowed ratio to the time error, and one of
+/// the smallest meaningful change.
+constexpr double worst_vertex_factor = 2.0, worst_vertex_floor_factor = 10.0;
+
+/// Accuracy of the linear solve, relative in the energy norm. Larger: more Newton iterations. Smaller: each is more expensive.
+constexpr double linear_energy_accuracy = 0.2;
+
+/// Relative residual at which a linear solve ends, whatever its energy.
+constexpr double min_linear_residual = 1e-10;
+
+/// With a residual to reach, the linear residual follows Newton's: factor of the squared ratio, its minimum and its maximum
+/// (Eisenstat and Walker 1996, choice 2, gamma = 0.9).
+constexpr double forcing_factor = 0.9, min_forcing = 1e-6, max_forcing = 0.1;
+
+/// Fraction of the residual to reach that the last linear solve aims at, and the largest linear residual at all.
+constexpr double last_forcing_ratio = 0.3, loosest_forcing = 0.3;
+
 double squared_from(const TimeError& error, int first, int count, const Vec3Arrays& velocities, const Vec3Arrays& from) {
     const double *free = error.free->data(), *mass = error.model->mass.data();
     return sum_terms(*error.compute, first, count,

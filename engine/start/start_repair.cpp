@@ -6,10 +6,29 @@
 #include "forces/springs.h"
 #include "step/step.h"
 #include "support/deadline.h"
-#include "tolerances.h"
 
 namespace percale {
 namespace {
+
+/// Strain that a start may have after initial penetration was resolved (where it had less before), and at which relaxing ends.
+/// Larger: torn starts are accepted.
+constexpr double max_start_strain = 0.5, good_start_strain = 0.1;
+
+/// How often cloth leaves obstacles and cloth in turn. Fewer: cloth moved out of one is left in the other. Cost, of hopeless
+/// starts.
+constexpr int max_repair_turns = 8;
+
+/// Steps of relaxing, and their length in s.
+constexpr int max_relaxations = 60;
+constexpr double relaxation_step = 1.0 / 60.0;
+
+/// Fraction by which strain has to fall, and consecutive steps without such a fall after which relaxing ends. Fewer: starts are
+/// refused that would have relaxed.
+constexpr double relaxed_ratio = 0.01;
+constexpr int max_idle_relaxations = 10;
+
+/// Fraction of h. Vertices that resolving penetration moved by less are not reported.
+constexpr double reported_move_ratio = 0.1;
 
 /// The cause of a vertex's motion, if no obstacle.
 constexpr int unmoved = -1, moved_by_cloth = -2;

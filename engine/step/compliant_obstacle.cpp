@@ -13,6 +13,34 @@
 namespace percale {
 namespace {
 
+/// Surfaces give way from this fraction of the room that two activation distances have, at which the cloth between them begins
+/// to be pressed. Larger: they give way before the contacts that show the pinch exist. Smaller: cloth is pressed hard.
+constexpr double kept_room = 0.6;
+
+/// h of room more than is kept that deflections leave unused, and h by which they return in a step. Slack 0: deflections go back
+/// and forth for ever. Larger: they stay larger than necessary. Return larger: where cloth is just out of contact they come too
+/// near, are pushed back, and tremble. Smaller: deflections last.
+constexpr double deflection_slack = 0.2, deflection_return = 0.25;
+
+/// h. A deflection that would change by less, and cloth that moves by less in a step, is at rest. 0: no deflection rests.
+/// Larger: it stays where it should change.
+constexpr double resting_deflection = 0.02;
+
+/// h, and mean edges: how far around a pressing point the surface goes along. Smaller: spikes. Larger: deflections wider than
+/// the cloth.
+constexpr double deflection_thicknesses = 4.0, deflection_edges = 2.0;
+
+/// Factor by which the corners around a pressing point retreat more than it has to, since a point inside a triangle moves less.
+/// Smaller: more steps until there is room. Larger: more room than is kept.
+constexpr double beyond_press = 1.2;
+
+/// Weight in a contact from which it presses a vertex, and fraction of a retreat below which a vertex has not moved. Larger:
+/// pairs that pinch are not seen. Smaller: places that hardly matter count.
+constexpr double min_pressing_weight = 0.05, min_deflection_ratio = 0.1;
+
+/// Passes over contacts between cloths; each sees through at least one layer. Fewer: thick bundles are pinched unseen.
+constexpr int compliant_passes = 3;
+
 /// A point of an obstacle that presses a vertex of cloth.
 struct Presser {
     std::size_t constraint;                // in which a point of an obstacle presses

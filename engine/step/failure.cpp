@@ -8,6 +8,9 @@
 namespace percale {
 namespace {
 
+/// Strain of held cloth from which the report of a step that failed, or did not converge, names the cloth.
+constexpr double reported_strain = 1.0;
+
 /// Names a pin that is blocked, or blocks.
 void name_vertex(const StepScene& scene, int vertex, StepReport& report) {
     report.blocked_cloth = cloth_of(scene.model, vertex);

@@ -7,6 +7,12 @@
 #include "tolerances.h"
 
 namespace percale {
+namespace {
+
+/// Parts of a step, asked for by the travel of one thing, from which the report states that it may have jumped.
+constexpr int jump_parts = 8;
+
+}  // namespace
 
 void report_obstacle(const ObstacleState& obstacle, int number, ContactDetector& detector) {
     if (obstacle.start_shape) detector.deform_obstacle(number, *obstacle.start_shape, *obstacle.end_shape);

@@ -7,6 +7,9 @@
 namespace percale {
 namespace {
 
+/// Fraction of a vertex's weight that forces on it may leave in cloth at rest. Larger: a swing sleeps where it turns.
+constexpr double rest_force_ratio = 0.02;
+
 /// One cloth, and how far it may move, m.
 struct RestCheck {
     const StepScene& scene;

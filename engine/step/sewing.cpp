@@ -5,6 +5,13 @@
 #include "tolerances.h"
 
 namespace percale {
+namespace {
+
+/// s, m. Time in which a weld takes up its gap, and the gap at which its spring's force is the largest that it holds with.
+/// Shorter: stitches swing. Wider: a seam that something keeps open pulls harder and harder.
+constexpr double weld_time = 0.05, widest_weld = 0.01;
+
+}  // namespace
 
 void add_rest_lengths(const SpringNetwork& network, std::vector<double>& rest_length) {
     if (rest_length.empty()) return;

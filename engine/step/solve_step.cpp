@@ -8,10 +8,13 @@
 #include "substep/advance.h"
 #include "substep/targets.h"
 #include "support/deadline.h"
-#include "tolerances.h"
 
 namespace percale {
 namespace {
+
+/// Halvings of one substep, one inside the other: the shortest is 1/64 of it. Fewer: hard impacts end as steps that did not
+/// converge. More: a step that cannot be solved costs twice as much with each before it ends.
+constexpr int max_halvings = 6;
 
 /// Adds the figures of a substep, dropped ones too.
 void add_figures(const SubstepResult& substep, StepReport& report) {

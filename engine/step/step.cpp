@@ -19,6 +19,14 @@
 namespace percale {
 namespace {
 
+/// s per second: how fast the time step that sets the contact stiffness may become shorter. Stiffness goes as 1/dt^2, and a
+/// stiffer contact stores energy that no work has supplied; slowly against its own period, 2 pi sqrt(2) dt, it stores none.
+constexpr double fastest_contact_shortening = 0.05;
+
+/// Newton iterations of a step whose time is up in which pins and obstacles have to arrive, or the step fails. Smaller: steps
+/// fail that would have arrived. Larger: those that do not arrive delay their host for longer.
+constexpr int max_late_iterations = 20;
+
 StepReport begin_report(double time_step) {
     StepReport report;
     report.dt = report.smallest_dt = report.largest_dt = time_step;

@@ -5,10 +5,16 @@
 #include <numeric>
 #include <tuple>
 
-#include "tolerances.h"
-
 namespace percale {
 namespace {
+
+/// h per second, besides what gravity causes in a stage: what comes more slowly is in no impact. Larger: bounces end early. 0:
+/// they never do, and persistent contacts count as impacts.
+constexpr double min_impact_rate = 2.0;
+
+/// Fraction of an impact's speed that each step leaves after the point was stopped; until it is slow, contact cannot make the
+/// point leave. Larger: persistent contacts count as impacts. Smaller: contact that is still compressed throws it off.
+constexpr double impact_fading = 0.9;
 
 /// The nearest constraint first. A constraint changes the motion of the next ones, and the order in which they were found
 /// depends on the axes.

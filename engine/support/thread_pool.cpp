@@ -20,6 +20,12 @@
 namespace percale {
 namespace {
 
+/// How long a thread looks for more work before it goes to sleep: regions follow each other within microseconds, and waking a
+/// thread takes tens of them. Longer: other programs get less of the cores. Shorter: every region waits for threads to wake. The
+/// second number counts the looks between two readings of the clock. Cost alone.
+constexpr std::chrono::microseconds longest_spin(20);
+constexpr int spins_between_looks = 8;
+
 void relax() {
 #if defined(__x86_64__)
     __builtin_ia32_pause();

@@ -21,6 +21,9 @@
 namespace percale::scenes {
 namespace {
 
+/// Samples of a cache. More: its header is of another kind of file.
+constexpr long max_samples = 1000000;
+
 constexpr std::string_view pc2_word = "POINTCACHE2";
 
 /// Four bytes of a file as a number of the machine.

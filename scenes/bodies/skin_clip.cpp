@@ -16,6 +16,13 @@
 namespace percale::scenes {
 namespace {
 
+/// Fraction of the body's diagonal. Vertices at one place that a clip moves apart by more are two. 0: rounding tears seams of
+/// texture.
+constexpr double moved_alike = 1e-6;
+
+/// Times at which they are compared. Fewer: some part between them.
+constexpr int times_compared = 9;
+
 void check_can_be_animated(const std::string& file) {
     const std::vector<std::string> animated = {".gltf", ".glb", ".fbx", ".dae"};
     if (std::ranges::find(animated, extension_of(file)) == animated.end())

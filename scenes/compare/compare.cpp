@@ -12,6 +12,10 @@ namespace percale::scenes {
 
 namespace {
 
+/// Steps of each scheme, and tolerances of adaptive steps in m/s, where none are asked for.
+constexpr int default_steps = 4;
+constexpr double default_tolerances[] = {1e-2, 1e-3, 1e-4};
+
 void add_default_steps(const SceneSource& source, const std::string& scheme, const CompareHooks& hooks,
                        std::vector<Variant>& variants) {
     const std::optional<Survivor> survivor = largest_surviving_step(source, scheme, hooks.stop_asked);

@@ -12,6 +12,16 @@ namespace percale::scenes {
 
 namespace {
 
+/// Stretch of an edge beyond which a finite end is none.
+constexpr double torn_stretch = 10.0;
+
+/// Changes that fall by less than this factor, as often in turn as a candidate has patience, have stopped falling.
+constexpr double min_halving_progress = 1.25;
+
+/// How much smaller a change may be than the one before it for Richardson's estimate. Below the minimum the change itself is
+/// taken; above the maximum the estimate would be trusted too much.
+constexpr double min_richardson_ratio = 2.0, max_richardson_ratio = 16.0;
+
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Candidate {

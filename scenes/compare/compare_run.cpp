@@ -12,6 +12,12 @@
 #include "tolerances.h"
 
 namespace percale::scenes {
+namespace {
+
+/// Fraction by which a rate of steps may differ from a whole number and still be written as 1/number.
+constexpr double whole_rate_rounding = 1e-9;
+
+}  // namespace
 
 std::string length_text(const Variant& variant) {
     if (variant.time_step <= 0.0) return "tolerance " + number_text(variant.tolerance) + " m/s";

@@ -14,6 +14,29 @@
 namespace percale::scenes {
 namespace {
 
+/// Elements that a finding names.
+constexpr std::size_t shown_elements = 4;
+
+/// Times the mesh's size: farther from the origin rounding spoils its shape.
+constexpr double farthest_extents = 1e4;
+
+/// Pairs of triangles in a search for crossings: found; tested, for each triangle and at least. Fewer: it is left unknown whether
+/// a mesh crosses itself. More: seconds.
+constexpr long max_crossings = 1000, crossing_tests_per_triangle = 100, min_crossing_tests = 1000000;
+
+/// Longest edge over the shortest.
+constexpr double max_edge_ratio = 1e3;
+
+/// Thickness over the median edge, that is advised where it is above 1.
+constexpr double advised_thickness = 0.5;
+
+/// Thickness over the distance from the origin: with less, gaps of a thousandth of it drown in rounding.
+constexpr double min_thickness_of_place = 1e-5;
+
+/// Size of a cloth over an obstacle's, or the reverse: from the first on they look like metres and centimetres, from the second
+/// like metres and millimetres.
+constexpr double centimetre_ratio = 50.0, millimetre_ratio = 500.0;
+
 std::string element_text(int element) { return std::to_string(element); }
 std::string element_text(const VertexPair& edge) { return "(" + std::to_string(edge[0]) + ", " + std::to_string(edge[1]) + ")"; }
 

@@ -10,6 +10,9 @@
 namespace percale::scenes {
 namespace {
 
+/// s, after sewing: a seam that is open by more than that then does not close. Longer: garments that cannot be sewn take longer.
+constexpr double late_closing = 1.0;
+
 std::vector<double> heights(const BuiltScene& built) {
     std::vector<double> all;
     for (const ClothId cloth : built.cloths) all.push_back(mean_height(built.simulation, cloth));

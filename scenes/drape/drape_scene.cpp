@@ -18,6 +18,10 @@
 namespace percale::scenes {
 namespace {
 
+/// A body that is by this factor taller along z than along y stands along z. Smaller: spheres and beds do. Larger: people do not.
+/// A flat thing, less deep along y than this fraction of its size, lies there and does not stand.
+constexpr double standing_ratio = 1.5, min_standing_depth = 0.05;
+
 /// How a pattern is sewn.
 constexpr double sewing_stiffness = 3000.0;  // N/m
 /// The damping of a preset, with which hems come to rest within seconds.

@@ -13,6 +13,10 @@
 namespace percale::scenes {
 namespace {
 
+/// m. A garment from a pattern that hangs lower than this since it was sewn, in the mean, has slid down. Smaller: it is reported
+/// how far cloth gives by its own weight.
+constexpr double far_slid = 0.1;
+
 std::string unclean_text(const FrameCheck& check) {
     return "not clean: " + std::to_string(check.intersections) +
            " intersecting pairs (with the body, themselves or each other), " + std::to_string(check.vertices_inside) +

@@ -21,6 +21,13 @@
 #include "tolerances.h"
 
 namespace percale::scenes {
+namespace {
+
+/// Checkpoints of a run that is kept, over the longest that its scene may take. Fewer: more is run again after a kill. More: a
+/// short scene spends its time writing.
+constexpr double checkpoints_of_kept_run = 20.0;
+
+}  // namespace
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;

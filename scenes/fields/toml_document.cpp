@@ -13,6 +13,9 @@
 namespace percale::scenes {
 namespace {
 
+/// Dots of a key. Each takes a call inside a call: without a limit a hostile file would exhaust the stack.
+constexpr int deepest_key = 256;
+
 SourcePlace place_of(const toml::source_region& region, const std::string& name) {
     return {name, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }

@@ -15,6 +15,12 @@
 namespace percale::scenes {
 namespace {
 
+/// m. How much farther out than the one below it the panels of a garment start. Smaller: panels start through those below.
+constexpr double layer_offset = 0.04;
+
+/// Edges of a rest shape that are by more longer or shorter than those of the start are likely in another unit.
+constexpr double max_rest_ratio = 2.0;
+
 RestShape uv_shape(const std::string& file, const ClothSpec& cloth, const TriangleMesh& start) {
     const TexturedMesh textured = import_textured_mesh(file, cloth.unit, cloth.part);
     RestShape shape;

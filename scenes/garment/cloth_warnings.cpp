@@ -8,6 +8,9 @@
 namespace percale::scenes {
 namespace {
 
+/// kg/m^2, of cloth that nothing is said about: from silk gauze to chain mail. Outside a unit is likely wrong.
+constexpr double lightest_cloth = 0.005, heaviest_cloth = 15.0;
+
 std::string density_warning(const std::string& name, double density) {
     const bool heavy = density > heaviest_cloth;
     const std::string other = short_number(heavy ? density / 1000.0 : 1000.0 * density);

@@ -13,6 +13,9 @@
 namespace percale::scenes {
 namespace {
 
+/// Fraction of a cloth's bounding box, by which the box of a selection grows. 0: vertices on its rim are selected by chance.
+constexpr double box_rounding = 1e-9;
+
 std::vector<int> sorted_once(std::vector<int> vertices) {
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());

@@ -9,6 +9,12 @@
 #include "tolerances.h"
 
 namespace percale::scenes {
+namespace {
+
+/// Steps. A pinch that pauses no longer is one. 0: every step in which a surface springs back and forth begins another.
+constexpr double pause_of_pinch = 6.0;
+
+}  // namespace
 
 void add_certificate(FrameCheck& check, const Certificate& certificate) {
     check.intersections += static_cast<int>(certificate.pairs.size());

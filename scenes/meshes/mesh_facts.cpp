@@ -13,6 +13,13 @@
 namespace percale::scenes {
 namespace {
 
+/// Height of a triangle over its longest edge, in lengths of that. Flat ones have no area, as check_mesh of the engine has it:
+/// if the two differ, `percale doctor` passes what a run refuses. Slivers are warned of.
+constexpr double flat_height = 1e-12, sliver_height = 1e-2;
+
+/// The number of largest solids that a part turned inside out is compared with before it counts as inverted. More: slower.
+constexpr std::size_t max_solids = 100;
+
 /// For each vertex the first one at the same place.
 std::vector<int> first_at_place(const std::vector<Vec3>& x) {
     std::vector<int> order(x.size()), first(x.size());

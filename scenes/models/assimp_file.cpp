@@ -17,6 +17,17 @@ namespace percale::scenes {
 
 namespace {
 
+/// Nodes of a file inside each other. More: the stack overflows.
+constexpr int deepest_node = 1000;
+
+/// What an importer of assimp may use for a file: bytes of memory, and so many for each byte of the file; s of CPU time,
+/// likewise. Less: large good files are refused. More: broken ones take the machine longer.
+constexpr std::uint64_t import_memory = 512ull << 20, import_memory_per_byte = 64;
+constexpr double import_cpu_s = 10.0, import_cpu_s_per_byte = 2e-6;
+
+/// Ticks a second of a clip that does not say, 1/s: frames of a film, what files mean that do not.
+constexpr double usual_ticks_per_s = 25.0;
+
 Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
     Eigen::Matrix4d result;
     for (unsigned row = 0; row < 4; ++row)

@@ -18,6 +18,10 @@ namespace percale::scenes {
 
 namespace {
 
+/// How often parts of a glTF file may use its numbers in the mean, each of which takes a byte at least. Less: bodies of many
+/// materials that share their vertices are refused. More: a small file fills the memory.
+constexpr std::size_t max_number_copies = 4;
+
 using GltfJson = nlohmann::json;
 
 const GltfJson no_list = GltfJson::array();

@@ -10,6 +10,12 @@
 namespace percale::scenes {
 namespace {
 
+/// Relative to the square of the longest side: a triangle with less than this as twice its area has none. 0: ears along a line.
+constexpr double min_turn = 1e-12;
+
+/// Corners of a polygon that is cut into ears, which takes their square of time. More: seconds for one polygon.
+constexpr std::size_t max_cut_corners = 10000;
+
 /// Cuts corners off a polygon, the best shaped first.
 class EarClipper {
 public:

@@ -11,6 +11,10 @@
 namespace percale::scenes {
 namespace {
 
+/// Ratio of a seam's sides from which on it is a gather: the longer one gets vertices between stitches. Larger: edges of the
+/// longer side are pressed together. Smaller: eased seams are gathered.
+constexpr double gathered_ratio = 1.1;
+
 /// In edge lengths: corners nearer to each other than this are sewn together.
 constexpr double one_corner = 1.0 / 3.0;
 

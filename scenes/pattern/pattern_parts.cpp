@@ -9,6 +9,9 @@
 namespace percale::scenes {
 namespace {
 
+/// m. Panels that lie nearer to one plane lie in it. 0: rounding decides to which side they move apart.
+constexpr double same_plane = 1e-6;
+
 Point2 mirror_point(const Point2& point) { return {-point.x(), point.y()}; }
 
 }  // namespace

@@ -29,6 +29,9 @@ namespace percale::program {
 
 namespace {
 
+/// Pinches that `run` prints; the report has all.
+constexpr std::size_t max_pinches_reported = 8;
+
 using namespace percale::scenes;
 
 struct RunOptions {

@@ -11,6 +11,9 @@ namespace percale::scenes {
 
 namespace {
 
+/// In the logarithm: a number that is a power of ten up to rounding gets no further decade in a plot.
+constexpr double decade_rounding = 1e-9;
+
 constexpr double plot_width = 860.0, plot_height = 540.0;  // pixels
 constexpr double plot_left = 90.0, plot_right = 640.0, plot_top = 50.0, plot_bottom = 470.0;
 constexpr double legend_left = 660.0, legend_line = 24.0;

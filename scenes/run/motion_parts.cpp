@@ -11,6 +11,9 @@
 namespace percale::scenes {
 namespace {
 
+/// Parts of a step. What moves still farther in a part may block the cloth.
+constexpr double max_motion_parts = 1e5;
+
 /// The time that two intervals have in common, s.
 double overlap(double from, double to, double other_from, double other_to) {
     return std::max(0.0, std::min(to, other_to) - std::max(from, other_from));

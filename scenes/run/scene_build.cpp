@@ -24,6 +24,18 @@
 namespace percale::scenes {
 namespace {
 
+/// Fraction by which a step may be longer than a frame without passing one by. 0: rounding warns.
+constexpr double frame_rounding = 1e-9;
+
+/// Thicknesses of cloth, and fraction of an obstacle's area: where more of it has edges so long, it hardly gives way.
+constexpr double coarse_edge_thicknesses = 12.0, reported_coarse_ratio = 0.05;
+
+/// Strain from which a run and drape warn that a garment is tight. Smaller: it warns of knits made to stretch.
+constexpr double tight_strain = 0.25;
+
+/// Fraction of a strain limit by which cloth may exceed it without a warning.
+constexpr double passed_limit_ratio = 0.1;
+
 /// How messages name a cloth and an obstacle.
 std::string reported(const ClothSpec& cloth) { return "cloth '" + cloth.name + "'"; }
 std::string reported(const ObstacleSpec& obstacle) { return "obstacle '" + obstacle.name + "'"; }

@@ -4,11 +4,14 @@
 #include <cmath>
 
 #include "percale/options.h"
-#include "tolerances.h"
 
 namespace percale::scenes {
 
 namespace {
+
+/// Fraction of a number of steps up to which a duration is a multiple of the step, and fraction of a step up to which the last
+/// step takes a remainder along. 0: rounding adds a step of no length.
+constexpr double whole_steps_rounding = 1e-9, min_last_step = 1e-3;
 
 constexpr double rounding = 1e-7;  // of a step
 

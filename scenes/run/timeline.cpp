@@ -9,6 +9,9 @@
 namespace percale::scenes {
 namespace {
 
+/// Fraction of a step by which an event may be late for it: times are sums of steps. 0: events come a step late.
+constexpr double event_rounding = 1e-9;
+
 void move_obstacle(BuiltScene& built, std::size_t i, std::span<const Vec3> shape, double end) {
     const Pose pose = obstacle_pose_at(built.scene.obstacles[i], end);
     if (pose != built.simulation.obstacle_pose(built.obstacles[i])) built.simulation.move_obstacle(built.obstacles[i], pose);

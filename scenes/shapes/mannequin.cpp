@@ -6,11 +6,22 @@
 #include "shapes/mannequin_parts.h"
 #include "shapes/mesh_relax.h"
 #include "shapes/surface_net.h"
-#include "tolerances.h"
 
 namespace percale::scenes {
 
 namespace {
+
+/// m. Step of the differences for the mannequin's normals. Smaller: rounding. Larger: corners are rounded.
+constexpr double normal_step = 1e-5;
+
+/// Maximum number of Newton steps to the mannequin's surface, and the distance in m at which they end.
+constexpr int max_surface_steps = 20;
+constexpr double surface_error = 1e-12;
+
+/// Rounds of relaxing the mannequin first and after each merge, merges, and the fraction of the spacing below which edges merge.
+/// Other values give another mesh than the shipped one.
+constexpr int mannequin_first_rounds = 4, mannequin_rounds = 5, mannequin_merges = 3;
+constexpr double mannequin_merge_ratio = 0.5;
 
 Vec3 gradient(const Vec3& point) {
     Vec3 slope;

@@ -14,6 +14,18 @@ namespace percale::scenes {
 
 namespace {
 
+/// Radians. A flip of an edge has to enlarge the smallest angle by more. 0: flips may go to and fro.
+constexpr double min_flip_gain = 1e-6;
+
+/// Cosine of the turn (60 degrees) that a triangle's normal may make by a flip or a merge. Smaller: surfaces fold over.
+constexpr double min_normal_cosine = 0.5;
+
+/// Radians (5 degrees). Merging vertices leaves no smaller angle. 0: needles. Larger: short edges stay.
+constexpr double min_merged_angle = 5.0 * std::numbers::pi / 180.0;
+
+/// Sweeps over all edges in one call. Fewer: meshes are left with flips to make.
+constexpr int max_flip_sweeps = 30;
+
 /// The triangles beside an edge, and how often the edge occurs.
 struct EdgeSides {
     std::array<int, 2> triangles = {-1, -1};

@@ -12,6 +12,13 @@ namespace percale::scenes {
 
 namespace {
 
+/// Points of a ring of the poncho before it is divided evenly, and directions in which its rows are counted.
+constexpr int poncho_samples = 4096, poncho_directions = 64;
+
+/// Rounds of relaxing the poncho first and after each merge, merges, and the fraction of the spacing below which edges merge.
+constexpr int poncho_rounds = 10, poncho_last_rounds = 20, poncho_merges = 3;
+constexpr double poncho_merge_ratio = 0.65;
+
 using Ring = std::vector<Vec3>;
 
 void check_length(double value, const char* field, double lowest, double highest) {

@@ -4,6 +4,13 @@
 #include "tolerances.h"
 
 namespace percale::scenes {
+namespace {
+
+/// Divisions of shapes that a scene names: a sphere's (4: 5120 triangles), and around the y axis. Cloth of finer mesh sees the
+/// facets; more triangles cost more.
+constexpr int sphere_level = 4, shape_segments_around = 48;
+
+}  // namespace
 
 TriangleMesh SphereShape::mesh() const { return make_sphere(radius, sphere_level); }
 TriangleMesh BoxShape::mesh() const { return make_box(size); }

@@ -12,6 +12,9 @@ namespace percale::scenes {
 
 namespace {
 
+/// Fraction of the lattice's spacing by which a filled node lies inside. 0: triangles without area.
+constexpr double filled_depth = 0.1;
+
 /// Sampled distances of the half x > 0. Nodes lie at x = (i - 1/2) spacing, so that the cells i = 0 are centred on the mirror
 /// plane and no surface quad crosses it.
 struct Lattice {
