@@ -58,12 +58,6 @@ constexpr std::size_t self_clusters_a_part = 64, self_lists_a_part = 16, self_li
 /// holds the seam open. 0: nothing keeps its sides apart near it.
 constexpr double seam_activation_ratio = 0.1;
 
-// ---- untangle/
-
-/// Sample points from the middle of a rim to its vertices that test whether an obstacle passes through it. Fewer: legs are
-/// missed.
-constexpr double fan_places[] = {0.0, 0.25, 0.5, 0.75, 0.95};
-
 // ---- certificate/ and the users of its trees. Nothing here decides whether triangles cross: that test is exact.
 
 /// Fraction of a distance. A bound must exceed a distance by this much to exclude a pair, because of rounding (1e-15). 0: the

@@ -103,10 +103,6 @@ constexpr double limit_stiffness = 10.0, max_held_strain = 2.0, limit_time = 1.0
 /// one side. Nearer to 0: surfaces beside each other count as a pinch. Farther: slanted ones are not seen.
 constexpr double opposite_sides = -0.5, same_side = 0.5;
 
-/// Numbers of equal parts into which a step is divided, in turn, where a surface came up too fast to give way in time. Cost
-/// alone, but for the last: a surface too fast for it fails the step.
-constexpr int compliant_parts[] = {4, 16, 64};
-
 // ---- checks/: derivatives against differences, for settings.check_derivatives. Smaller: right forces are found wrong. Larger:
 // wrong ones pass.
 

@@ -6,8 +6,6 @@
 #include <limits>
 #include <unordered_map>
 
-#include "tolerances.h"
-
 namespace percale {
 
 namespace {

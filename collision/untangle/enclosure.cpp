@@ -24,6 +24,10 @@ constexpr double enclosure_room = 0.01;
 /// decides.
 constexpr int min_surrounded = 4;
 
+/// Sample points from the middle of a rim to its vertices that test whether an obstacle passes through it. Fewer: legs are
+/// missed.
+constexpr double fan_places[] = {0.0, 0.25, 0.5, 0.75, 0.95};
+
 /// Half of the solid angle of a triangle about a point (van Oosterom and Strackee, The solid angle of a plane triangle, 1983).
 double half_solid_angle(const Vec3& point, const Vec3& first, const Vec3& second, const Vec3& third) {
     const Vec3 a = first - point, b = second - point, c = third - point;
@@ -96,7 +100,7 @@ bool Enclosure::passes_through(std::span<const Vec3> x, const SolidObstacle& obs
     const std::vector<Vec3> centres = middles(x);
     std::set<int> passed;
     for (const RimEdge& edge : rims_) {
-        for (const double out : tolerances::fan_places) {
+        for (const double out : fan_places) {
             if (passed.contains(edge.rim)) break;
             if (obstacle.inside(centres[edge.rim] + out * (x[edge.from] - centres[edge.rim]))) passed.insert(edge.rim);
         }

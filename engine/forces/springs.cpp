@@ -5,8 +5,6 @@
 #include <cstring>
 #include <limits>
 
-#include "tolerances.h"
-
 namespace percale {
 namespace {
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "percale/error.h"
-#include "tolerances.h"
 
 namespace percale {
 namespace {

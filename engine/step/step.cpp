@@ -19,6 +19,10 @@
 namespace percale {
 namespace {
 
+/// Numbers of equal parts into which a step is divided, in turn, where a surface came up too fast to give way in time. Cost
+/// alone, but for the last: a surface too fast for it fails the step.
+constexpr int compliant_parts[] = {4, 16, 64};
+
 /// s per second: how fast the time step that sets the contact stiffness may become shorter. Stiffness goes as 1/dt^2, and a
 /// stiffer contact stores energy that no work has supplied; slowly against its own period, 2 pi sqrt(2) dt, it stores none.
 constexpr double fastest_contact_shortening = 0.05;

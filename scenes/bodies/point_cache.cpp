@@ -16,7 +16,6 @@
 #include "meshes/mesh_import.h"
 #include "models/joined_model.h"
 #include "percale/error.h"
-#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {

@@ -11,7 +11,6 @@
 #include "garment/cloth_shape.h"
 #include "meshes/mesh_import.h"
 #include "percale/error.h"
-#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {

@@ -9,7 +9,6 @@
 #include "frames/frame_formats.h"
 #include "garment/vertex_selection.h"
 #include "percale/error.h"
-#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {

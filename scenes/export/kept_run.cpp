@@ -18,7 +18,6 @@
 #include "percale/error.h"
 #include "percale/saved_state.h"
 #include "report/csv.h"
-#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {

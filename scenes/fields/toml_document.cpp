@@ -8,7 +8,6 @@
 
 #include "common/scene_file_error.h"
 #include "common/text.h"
-#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {

@@ -10,7 +10,6 @@
 #include "pattern/pattern_file.h"
 #include "pattern/pattern_parts.h"
 #include "percale/error.h"
-#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {

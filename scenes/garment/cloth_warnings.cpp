@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "common/text.h"
-#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {

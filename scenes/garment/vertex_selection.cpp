@@ -8,7 +8,6 @@
 
 #include "common/text.h"
 #include "percale/error.h"
-#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {

@@ -6,7 +6,6 @@
 #include <cstddef>
 
 #include "common/text.h"
-#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {

@@ -8,7 +8,6 @@
 #include <tuple>
 
 #include "meshes/point_cells.h"
-#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {

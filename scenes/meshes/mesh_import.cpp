@@ -17,7 +17,6 @@
 #include "meshes/stl_header.h"
 #include "models/joined_model.h"
 #include "percale/error.h"
-#include "tolerances.h"
 
 namespace percale::scenes {
 

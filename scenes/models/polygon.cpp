@@ -5,8 +5,6 @@
 #include <map>
 #include <set>
 
-#include "tolerances.h"
-
 namespace percale::scenes {
 namespace {
 

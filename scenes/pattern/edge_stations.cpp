@@ -6,7 +6,6 @@
 #include "common/scene_file_error.h"
 #include "common/text.h"
 #include "pattern/panel_curve.h"
-#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "tolerances.h"
-
 namespace percale::scenes {
 namespace {
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "report/svg_text.h"
-#include "tolerances.h"
 
 namespace percale::scenes {
 

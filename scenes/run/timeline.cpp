@@ -4,7 +4,6 @@
 
 #include "percale/error.h"
 #include "run/obstacle_motion.h"
-#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {

@@ -8,8 +8,6 @@
 #include <unordered_map>
 #include <utility>
 
-#include "tolerances.h"
-
 namespace percale::scenes {
 
 namespace {

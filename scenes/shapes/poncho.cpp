@@ -6,7 +6,6 @@
 
 #include "percale/error.h"
 #include "shapes/mesh_relax.h"
-#include "tolerances.h"
 
 namespace percale::scenes {
 

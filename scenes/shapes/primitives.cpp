@@ -1,7 +1,6 @@
 #include "shapes/primitives.h"
 
 #include "percale/error.h"
-#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {

@@ -6,8 +6,6 @@
 #include <span>
 #include <utility>
 
-#include "tolerances.h"
-
 namespace percale::scenes {
 
 namespace {

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "common/text.h"
-#include "tolerances.h"
 
 namespace percale::scenes {
 
