@@ -12,11 +12,6 @@
 namespace percale {
 namespace {
 
-Vec3 symmetric_product(const SymmetricBlock& k, const Vec3& u) {
-    const auto& [xx, xy, xz, yy, yz, zz] = k;
-    return {xx * u.x() + xy * u.y() + xz * u.z(), xy * u.x() + yy * u.y() + yz * u.z(), xz * u.x() + yz * u.y() + zz * u.z()};
-}
-
 /// A single term of the list, as a function of the positions at the end of the step, with the velocities that lead there.
 struct LoneTerm {
     StepEnd step;
@@ -33,6 +28,7 @@ struct LoneTerm {
         add_scaled(velocities, -1.0 / step.dt, step.end.cloth.positions);
         const ForceInput input = input_at(positions, velocities, with_matrix);
         result.total.resize(step.scene.model.vertex_count());
+        result.blocks.clear();
         term.stand_alone(input, result);
         return term.add(input, result);
     }
@@ -45,18 +41,14 @@ struct LoneTerm {
         set_pattern(step.scene.compute, model.adjacency, std::vector<double>(model.vertex_count(), 0.0), matrix);
         if (forces.spring_terms.values.empty()) forces.spring_terms.values.assign(model.adjacency.value_count(), 0.0f);
         matrix.springs = &forces.spring_terms;
-        matrix.pressure_blocks = forces.pressure_blocks;
-        matrix.positions = &step.end.cloth.positions;
+        matrix.coupled = {forces.blocks.coupled, {}};
+        matrix.of_forces = &forces.blocks;
     }
 
     /// Sets product to its part of the matrix times a direction.
     void multiply(const Vec3Arrays& direction, Vec3Arrays& product) const {
         AlignedVector<double> points;
         percale::multiply(matrix, direction, points, product);
-        for (std::size_t i = 0; i < forces.wind.blocks.size(); ++i) {
-            const int vertex = static_cast<int>(i);
-            product.add(vertex, symmetric_product(forces.wind.blocks[i], direction.at(vertex)));
-        }
     }
 
 private:
@@ -161,7 +153,7 @@ struct ContactCheck {
         for (const CoupledBlock& block : terms.blocks) {
             Vec3 u = Vec3::Zero();
             for (std::size_t k = 0; k < 4 && block.vertex[k] >= 0; ++k) u += block.weight[k] * direction.at(block.vertex[k]);
-            const Vec3 f = symmetric_product(block.k, u);
+            const Vec3 f = block_times(block.k, u);
             for (std::size_t k = 0; k < 4 && block.vertex[k] >= 0; ++k) product.add(block.vertex[k], block.weight[k] * f);
         }
     }

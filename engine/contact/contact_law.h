@@ -26,8 +26,7 @@ struct ContactStep {
 
 /// The result of one evaluation of contact.
 struct ContactTerms {
-    std::vector<CoupledBlock> blocks;  // first `others`, then those of constraints, then one per friction contact
-    std::size_t others = 0;            // blocks of single vertices that the wind added; contact keeps them
+    std::vector<CoupledBlock> blocks;  // those of constraints, then one per friction contact
     FrictionContacts friction_contacts;
     std::vector<ClothFrictionContact> cloth_friction_contacts;  // of the constraints between cloths
     double energy = 0.0;                                        // J, without friction
@@ -35,7 +34,7 @@ struct ContactTerms {
     double obstacle_power = 0.0;                                // W, of the obstacles on the cloth
 
     void clear() {
-        blocks.resize(others);
+        blocks.clear();
         cloth_friction_contacts.clear();
         energy = largest_stiffness = obstacle_power = 0.0;
     }

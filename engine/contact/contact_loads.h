@@ -33,7 +33,7 @@ void for_each_push(const ContactConstraints& constraints, const ContactTerms& te
         }
     }
     for (const FrictionContact& contact : terms.friction_contacts.all) {
-        if (contact.obstacle >= 0) visit(Push{contact.vertex, contact.obstacle, Vec3::Zero(), friction_force(contact)});
+        if (contact.obstacle >= 0) visit(Push{contact.vertex, contact.obstacle, Vec3::Zero(), contact.law().force(contact.slip)});
     }
 }
 

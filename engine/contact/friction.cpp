@@ -29,11 +29,6 @@ Eigen::Matrix3d matrix_of(const Pose& pose) {
     return m;
 }
 
-double spring_energy(double friction_limit, double stick_threshold, double slip) {
-    const double stretch = std::min(slip, stick_threshold);
-    return 0.5 * friction_limit / stick_threshold * stretch * stretch;
-}
-
 }  // namespace
 
 ObstacleMotion obstacle_motion(const Pose& start, const Pose& end, double fraction) {
@@ -84,8 +79,8 @@ void set_slip(const FrictionStart& start, const Vec3& position, double fraction,
 ClothFrictionContact cloth_friction_contact(const FrictionStart& start, const ContactConstraints& constraints, int constraint,
                                             double normal_force, const Vec3Arrays& positions) {
     ClothFrictionContact contact{.constraint = constraint,
-                                 .friction_limit = constraints.friction[constraint] * normal_force,
-                                 .stick_threshold = stick_threshold_ratio * constraints.thickness[constraint]};
+                                 .law = {.limit = constraints.friction[constraint] * normal_force,
+                                         .stick_threshold = stick_threshold_ratio * constraints.thickness[constraint]}};
     for (int k = 0; k < 4 && constraints.vertex[constraint][k] >= 0; ++k) {
         const int vertex = constraints.vertex[constraint][k];
         contact.moved += constraints.weight[constraint][k] * (positions.at(vertex) - start.positions->at(vertex));
@@ -95,40 +90,28 @@ ClothFrictionContact cloth_friction_contact(const FrictionStart& start, const Co
     if (!start.held) return contact;
     const ConstraintForce before = start.held->of(constraint_key(constraints, constraint));
     if (before.normal > 0.0) {
-        contact.slip -= contact.stick_threshold / (constraints.friction[constraint] * before.normal) *
-                        tangential(before.friction, constraints.direction[constraint]);
+        const CoulombLaw law{constraints.friction[constraint] * before.normal, contact.law.stick_threshold};
+        contact.slip += law.slip_of(tangential(before.friction, constraints.direction[constraint]));
     }
     return contact;
 }
 
-Vec3 friction_force(const FrictionContact& contact) {
-    return -contact.friction_limit.norm() / std::max(contact.slip.norm(), contact.stick_threshold) * contact.slip;
-}
-
-Vec3 friction_force(const ClothFrictionContact& contact) {
-    return -contact.friction_limit / std::max(contact.slip.norm(), contact.stick_threshold) * contact.slip;
-}
-
 double stick_energy(const FrictionContacts& friction_contacts) {
     double energy = 0.0;
-    for (const FrictionContact& contact : friction_contacts.all)
-        energy += spring_energy(contact.friction_limit.norm(), contact.stick_threshold, contact.slip.norm());
+    for (const FrictionContact& contact : friction_contacts.all) energy += contact.law().stored(contact.slip.norm());
     return energy;
 }
 
 double stick_energy(std::span<const ClothFrictionContact> cloth_friction_contacts) {
     double energy = 0.0;
-    for (const ClothFrictionContact& contact : cloth_friction_contacts)
-        energy += spring_energy(contact.friction_limit, contact.stick_threshold, contact.slip.norm());
+    for (const ClothFrictionContact& contact : cloth_friction_contacts) energy += contact.law.stored(contact.slip.norm());
     return energy;
 }
 
 void set_stick_anchors(const FrictionContacts& friction_contacts, std::vector<StickAnchor>& stick_anchors) {
     stick_anchors.clear();
     for (const FrictionContact& contact : friction_contacts.all) {
-        const double length = contact.slip.norm();
-        const double kept = length > contact.stick_threshold ? contact.stick_threshold / length : 1.0;
-        stick_anchors.push_back({contact.vertex, contact.obstacle, kept * contact.slip});
+        stick_anchors.push_back({contact.vertex, contact.obstacle, contact.law().anchored(contact.slip)});
     }
     std::sort(stick_anchors.begin(), stick_anchors.end(),
               [](const StickAnchor& a, const StickAnchor& b) { return key(a) < key(b); });
@@ -139,7 +122,7 @@ void set_held(const ContactConstraints& constraints, std::span<const ClothFricti
     held.clear(cloth_friction_contacts.size());
     for (const ClothFrictionContact& contact : cloth_friction_contacts) {
         held.add(constraint_key(constraints, contact.constraint),
-                 {.normal = constraint_forces[contact.constraint].normal, .friction = friction_force(contact)});
+                 {.normal = constraint_forces[contact.constraint].normal, .friction = contact.law.force(contact.slip)});
     }
 }
 

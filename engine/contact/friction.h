@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "coulomb.h"
 #include "model/cloth_state.h"
 #include "multipliers.h"
 #include "percale/contact.h"
@@ -43,15 +44,16 @@ struct FrictionContact {
     Vec3 slip = Vec3::Zero();                   // m, tangential, from the stick anchor
     Vec3 slip_direction = Vec3::Zero();         // unit, in which the tangent stiffness is dropped (active set); zero: the
                                                 // matrix treats the contact as sticking, also beyond the threshold
+
+    CoulombLaw law() const { return {friction_limit.norm(), stick_threshold}; }
 };
 
 /// Friction of a constraint between two cloths.
 struct ClothFrictionContact {
     int constraint = -1;
-    double friction_limit = 0.0,
-           stick_threshold = 0.0;  // N, friction coefficient times normal force; m, slip up to which they stick
-    Vec3 slip = Vec3::Zero();      // m, tangential, of the first side from its anchor on the second
-    Vec3 moved = Vec3::Zero();     // m, the part of the slip that the stage added
+    CoulombLaw law = {};
+    Vec3 slip = Vec3::Zero();   // m, tangential, of the first side from its anchor on the second
+    Vec3 moved = Vec3::Zero();  // m, the part of the slip that the stage added
 };
 
 /// The friction contacts of one evaluation.
@@ -72,10 +74,6 @@ void set_slip(const FrictionStart& start, const Vec3& position, double fraction,
 ClothFrictionContact cloth_friction_contact(const FrictionStart& start, const ContactConstraints& constraints, int constraint,
                                             double normal_force, const Vec3Arrays& positions);
 
-/// Coulomb's law with a sticking spring: -limit/threshold slip up to the stick threshold, the limit against the slip beyond.
-Vec3 friction_force(const FrictionContact& contact);
-Vec3 friction_force(const ClothFrictionContact& contact);
-
 /// Energy of the springs by which friction contacts stick, J.
 double stick_energy(const FrictionContacts& friction_contacts);
 double stick_energy(std::span<const ClothFrictionContact> cloth_friction_contacts);
@@ -83,8 +81,8 @@ double stick_energy(std::span<const ClothFrictionContact> cloth_friction_contact
 /// Sets the stick anchors that friction contacts leave behind. A sliding contact drags its anchor along.
 void set_stick_anchors(const FrictionContacts& friction_contacts, std::vector<StickAnchor>& stick_anchors);
 
-/// The same for constraints between cloths, by their keys: the slip s, at most the stick threshold r, is stored as a pair of
-/// forces, the normal force N and the friction F = -mu N s/r.
+/// The same for constraints between cloths, by their keys: the slip is stored as a pair of forces, the normal force and the
+/// friction (CoulombLaw::slip_of).
 void set_held(const ContactConstraints& constraints, std::span<const ClothFrictionContact> cloth_friction_contacts,
               const std::vector<ConstraintForce>& constraint_forces, ContactMultipliers& held);
 

@@ -98,7 +98,7 @@ void add_normal_force(const ContactConstraints& constraints, std::size_t constra
 /// turned back sticks. At its first evaluation it slides if it is old or if friction at its limit cannot stop it within the step.
 Vec3 slip_direction(const FrictionContact& friction_contact, const ContactStep& step) {
     const double length = friction_contact.slip.norm();
-    if (length <= friction_contact.stick_threshold) return Vec3::Zero();
+    if (!friction_contact.law().slides(length)) return Vec3::Zero();
     const Vec3 along = friction_contact.slip / length;
     if (const FrictionContact* before =
             step.previous ? step.previous->find(friction_contact.vertex, friction_contact.obstacle) : nullptr) {
@@ -114,13 +114,12 @@ void add_friction(const ContactStep& step, const Vec3Arrays& positions, Friction
                   ContactTerms& terms) {
     set_slip(*step.friction, positions.at(friction_contact.vertex), step.fraction, friction_contact);
     friction_contact.slip_direction = slip_direction(friction_contact, step);
-    const double limit = friction_contact.friction_limit.norm();
+    const CoulombLaw law = friction_contact.law();
     CoupledBlock block{.vertex = {friction_contact.vertex, -1, -1, -1}, .weight = {1.0, 0.0, 0.0, 0.0}, .k = {}};
-    const double stiffness = limit / std::max(friction_contact.slip.norm(), friction_contact.stick_threshold);
-    add_tangent_block(block.k, step.dt * step.dt * stiffness, friction_contact.friction_limit / limit,
-                      friction_contact.slip_direction);
+    add_tangent_block(block.k, step.dt * step.dt * law.stiffness(friction_contact.slip.norm()),
+                      friction_contact.friction_limit / law.limit, friction_contact.slip_direction);
     terms.blocks.push_back(block);
-    const Vec3 force = friction_force(friction_contact);
+    const Vec3 force = law.force(friction_contact.slip);
     forces.add(friction_contact.vertex, force);
     terms.obstacle_power += force.dot(friction_contact.obstacle_displacement) * step.obstacle_rate;
 }
@@ -129,20 +128,20 @@ void add_friction(const ContactStep& step, const Vec3Arrays& positions, Friction
 /// anchor or if friction at its limit cannot stop it within the step, later always.
 bool slides(const ContactConstraints& constraints, const ClothFrictionContact& cloth_contact, const ContactStep& step) {
     const double length = cloth_contact.slip.norm();
-    if (length <= cloth_contact.stick_threshold) return false;
+    if (!cloth_contact.law.slides(length)) return false;
     if (step.previous || cloth_contact.slip != cloth_contact.moved) return true;
     const double mass = at_contact(constraints, cloth_contact.constraint, [&](int vertex) { return (*step.mass)[vertex]; });
-    return length * mass > step.dt * step.dt * cloth_contact.friction_limit;
+    return length * mass > step.dt * step.dt * cloth_contact.law.limit;
 }
 
 /// Friction force of a constraint between two cloths; its matrix is added to the block of the constraint.
 Vec3 friction_between_cloths(const ContactConstraints& constraints, const ClothFrictionContact& cloth_contact,
                              const ContactStep& step, CoupledBlock& block) {
-    const double length = cloth_contact.slip.norm(),
-                 stiffness = cloth_contact.friction_limit / std::max(length, cloth_contact.stick_threshold);
+    const double length = cloth_contact.slip.norm();
     const Vec3 slip_direction = slides(constraints, cloth_contact, step) ? Vec3(cloth_contact.slip / length) : Vec3(Vec3::Zero());
-    add_tangent_block(block.k, step.dt * step.dt * stiffness, constraints.direction[cloth_contact.constraint], slip_direction);
-    return friction_force(cloth_contact);
+    add_tangent_block(block.k, step.dt * step.dt * cloth_contact.law.stiffness(length),
+                      constraints.direction[cloth_contact.constraint], slip_direction);
+    return cloth_contact.law.force(cloth_contact.slip);
 }
 
 /// The loss of a move, and the energy, J, that the constraints at its end would have stored at its start with their stiffness:
@@ -151,47 +150,32 @@ struct PenaltyLoss {
     double friction = 0.0, integrator = 0.0, stored_at_start = 0.0;
 };
 
-/// The stiffness of a constraint's potential, N/m: n.K n = dt^2 P'' with P'' = k, k (h/2)^2/d^2 below h/2.
-double stiffness_of(const ContactMove& move, const CoupledBlock& block) {
-    const double h = move.constraints.thickness[block.constraint], d = move.constraints.distance[block.constraint];
-    const double curvature = quadratic_form(block.k, move.constraints.direction[block.constraint]) / (move.dt * move.dt);
-    return d >= 0.5 * h ? curvature : 4.0 * d * d / (h * h) * curvature;
-}
-
 void add_constraint_loss(const ContactMove& move, const CoupledBlock& block, PenaltyLoss& loss) {
     const std::size_t constraint = block.constraint;
-    const double h = move.constraints.thickness[constraint], d = move.constraints.distance[constraint],
-                 k = stiffness_of(move, block);
-    const double opened = move.constraints.direction[constraint].dot(relative_move(move, constraint));
+    const Vec3& n = move.constraints.direction[constraint];
+    const double h = move.constraints.thickness[constraint], d = move.constraints.distance[constraint];
+    const double k = stiffness_of_curvature(quadratic_form(block.k, n) / (move.dt * move.dt), d, h);  // n.K n = dt^2 P''
+    const double opened = n.dot(relative_move(move, constraint));
     const double began = std::max(d - opened, std::min(d, min_start_ratio * h));
     const ContactPotential end = contact_potential(d, h, k), start = contact_potential(began, h, k);
     loss.stored_at_start += start.energy;
     loss.integrator += start.energy - end.energy - end.slope * opened;
 }
 
-/// 1/2 N/r e^2 up to e = r, N (e - r/2) beyond.
-double huber(double friction_limit, double stick_threshold, double stretch) {
-    return stretch <= stick_threshold ? 0.5 * friction_limit / stick_threshold * stretch * stretch
-                                      : friction_limit * (stretch - 0.5 * stick_threshold);
-}
-
-/// Adds the loss of a friction contact; `moved`: the part of the slip that belongs to the move.
-template <class Holding>
-void add_friction_loss(const Holding& holding, double friction_limit, const Vec3& moved, PenaltyLoss& loss) {
-    const double end = huber(friction_limit, holding.stick_threshold, holding.slip.norm());
-    const double start = huber(friction_limit, holding.stick_threshold, (holding.slip - moved).norm());
-    loss.friction += friction_limit * std::max(holding.slip.norm() - holding.stick_threshold, 0.0);
+/// Adds the loss of a friction contact with a slip; `moved`: the part of it that belongs to the move.
+void add_friction_loss(const CoulombLaw& law, const Vec3& slip, const Vec3& moved, PenaltyLoss& loss) {
+    const double end = law.potential(slip.norm()), start = law.potential((slip - moved).norm());
+    loss.friction += law.limit * std::max(slip.norm() - law.stick_threshold, 0.0);
     loss.stored_at_start += start;
-    loss.integrator += start - end - friction_force(holding).dot(moved);
+    loss.integrator += start - end - law.force(slip).dot(moved);
 }
 
 void add_friction_contact_loss(const ContactMove& move, const FrictionContact& friction_contact, PenaltyLoss& loss) {
-    const double friction_limit = friction_contact.friction_limit.norm();
-    if (friction_limit == 0.0) return;
+    const CoulombLaw law = friction_contact.law();
+    if (law.limit == 0.0) return;
     const Vec3 along = move.end.at(friction_contact.vertex) - move.start.at(friction_contact.vertex) -
                        move.dt * move.obstacle_rate * friction_contact.obstacle_displacement;
-    add_friction_loss(friction_contact, friction_limit, tangential(along, friction_contact.friction_limit / friction_limit),
-                      loss);
+    add_friction_loss(law, friction_contact.slip, tangential(along, friction_contact.friction_limit / law.limit), loss);
 }
 
 }  // namespace
@@ -249,7 +233,7 @@ ContactLoss PenaltyContact::loss(const ContactMove& move, double stored) const {
     for (const FrictionContact& friction_contact : move.terms.friction_contacts.all)
         add_friction_contact_loss(move, friction_contact, loss);
     for (const ClothFrictionContact& cloth_contact : move.terms.cloth_friction_contacts)
-        add_friction_loss(cloth_contact, cloth_contact.friction_limit, cloth_contact.moved, loss);
+        add_friction_loss(cloth_contact.law, cloth_contact.slip, cloth_contact.moved, loss);
     return {.friction = loss.friction, .contact = stored - loss.stored_at_start, .integrator = loss.integrator};
 }
 

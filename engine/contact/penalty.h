@@ -27,8 +27,8 @@ public:
     bool correct(const ContactPoint&, ContactForces, double) override { return false; }
     void end(const ContactConstraints& constraints, const ContactTerms& terms,
              const std::vector<ConstraintForce>& constraint_forces, ContactWarmStart& warm_start) override;
-    /// A friction contact with tangential displacement u has Huber's potential, quadratic up to the stick threshold and linear
-    /// beyond. The excess over the threshold times the friction force is the friction loss.
+    /// The potential of a friction contact is CoulombLaw::potential. The excess of its slip over the threshold times the friction
+    /// force is the friction loss.
     ContactLoss loss(const ContactMove& move, double stored) const override;
 };
 

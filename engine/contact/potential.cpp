@@ -13,4 +13,8 @@ ContactPotential contact_potential(double distance, double thickness, double sti
     return {0.5 * scale + scale * std::log(half / distance), scale / distance, scale / (distance * distance)};
 }
 
+double stiffness_of_curvature(double curvature, double distance, double thickness) {
+    return distance >= 0.5 * thickness ? curvature : 4.0 * distance * distance / (thickness * thickness) * curvature;
+}
+
 }  // namespace percale

@@ -10,4 +10,7 @@ struct ContactPotential {
 };
 ContactPotential contact_potential(double distance, double thickness, double stiffness);
 
+/// The stiffness k with which the potential has this curvature at a distance below the thickness.
+double stiffness_of_curvature(double curvature, double distance, double thickness);
+
 }  // namespace percale

@@ -59,13 +59,6 @@ struct StepWind {
     std::vector<WindTriangle> triangles;  // in the order of the model's
 };
 
-/// Results of the wind besides forces.
-struct WindTerms {
-    double power = 0.0;                  // W, of the air on the cloth
-    double potential = 0.0;              // J, dt times the dissipation potential
-    std::vector<SymmetricBlock> blocks;  // kg, -dt Jv of each vertex
-};
-
 /// The state and settings of one evaluation.
 struct ForceInput {
     const Compute* compute = nullptr;
@@ -83,9 +76,9 @@ struct ForceInput {
 struct Forces {
     Vec3Arrays total;  // N
     SpringTerms spring_terms;
-    WindTerms wind;
-    std::vector<PressureBlock> pressure_blocks;
-    double potential = 0.0;  // J, sum over the terms
+    ForceBlocks blocks;       // of the matrix, all but springs
+    double wind_power = 0.0;  // W, of the air on the cloth
+    double potential = 0.0;   // J, sum over the terms
 };
 
 /// The arguments of energies.
@@ -107,9 +100,9 @@ public:
     /// Whether the scene has this force. Otherwise only its reasons are requested.
     virtual bool acts(const ForceInput& input) const = 0;
 
-    /// forces.total += its forces, N, and with input.with_matrix its part of the matrix -dt^2 Jq - dt Jv, made positive
-    /// semidefinite except for pressure blocks, which are complete. Returns its potential, J: the forces are minus its gradient
-    /// with respect to the positions at the end of dt.
+    /// forces.total += its forces, N, and with input.with_matrix its part of the matrix -dt^2 Jq - dt Jv, as blocks that every
+    /// solver sees (ForceBlocks), made positive semidefinite except for loads, which are complete. Returns its potential, J: the
+    /// forces are minus its gradient with respect to the positions at the end of dt.
     virtual double add(const ForceInput& input, Forces& forces) const = 0;
 
     /// The entry of the energies in which its stored energy is counted; null: it stores nothing.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace percale {
 namespace {
@@ -13,6 +14,28 @@ constexpr double air_pressure = 101325.0;
 
 bool is_filled(const Fabric& fabric) { return fabric.pressure || fabric.gas_volume; }
 
+/// work(triangle, dV/dx at each of its corners)
+template <class Work>
+void for_each_volume_gradient(const ClothModel& model, const ClothRange& cloth, const Vec3Arrays& positions, const Work& work) {
+    for (const Triangle& t : triangles_of(model, cloth)) {
+        const Vec3 a = positions.at(t[0]);
+        work(t, (positions.at(t[1]) - a).cross(positions.at(t[2]) - a) / 6.0);
+    }
+}
+
+void add_blocks(const ForceInput& input, const ClothRange& cloth, const GasState& gas, ForceBlocks& blocks) {
+    if (gas.stiffness > 0.0) {
+        const OuterBlocks::NewBlock block = blocks.outer.add(cloth.count);
+        std::iota(block.vertex.begin(), block.vertex.end(), cloth.first);
+        add_volume_gradient(*input.model, cloth, *input.positions, input.dt * std::sqrt(gas.stiffness), block.gradient);
+    }
+    const double factor = -input.dt * input.dt * gas.pressure / 6.0;
+    for (const Triangle& t : triangles_of(*input.model, cloth)) {
+        const Vec3 a = input.positions->at(t[0]);
+        blocks.loads.push_back({t, factor * (input.positions->at(t[1]) - a), factor * (input.positions->at(t[2]) - a)});
+    }
+}
+
 class Pressure final : public ForceTerm {
 public:
     std::string_view name() const override { return "pressure"; }
@@ -21,20 +44,15 @@ public:
     }
 
     double add(const ForceInput& input, Forces& forces) const override {
-        std::size_t count = 0;
         double energy = 0.0;
         for (const ClothRange& cloth : input.model->cloths) {
             if (!is_filled(cloth.fabric)) continue;
-            if (count == forces.pressure_blocks.size())
-                forces.pressure_blocks.emplace_back();  // kept from one evaluation to the next
-            PressureBlock& block = forces.pressure_blocks[count++];
-            const GasState gas_state = gas_state_at(cloth.fabric, volume_of(*input.model, cloth, *input.positions));
-            set_volume_gradient(*input.model, cloth, *input.positions, block.gradient);
-            block.stiffness = input.dt * input.dt * gas_state.stiffness;
-            block.load = input.dt * input.dt * gas_state.pressure;
-            block.triangles = triangles_of(*input.model, cloth);
-            add_scaled(forces.total, gas_state.pressure, block.gradient);
-            energy += gas_state.energy;
+            const GasState gas = gas_state_at(cloth.fabric, volume_of(*input.model, cloth, *input.positions));
+            for_each_volume_gradient(*input.model, cloth, *input.positions, [&](const Triangle& t, const Vec3& gradient) {
+                for (const int vertex : t) forces.total.add(vertex, gas.pressure * gradient);
+            });
+            if (input.with_matrix) add_blocks(input, cloth, gas, forces.blocks);
+            energy += gas.energy;
         }
         return energy;
     }
@@ -79,12 +97,11 @@ double volume_of(const ClothModel& model, const ClothRange& cloth, const Vec3Arr
     });
 }
 
-void set_volume_gradient(const ClothModel& model, const ClothRange& cloth, const Vec3Arrays& positions, Vec3Arrays& gradient) {
-    gradient.resize(static_cast<int>(positions.padded_size()));
-    for (const auto& [i, j, k] : triangles_of(model, cloth)) {
-        const Vec3 third = (positions.at(j) - positions.at(i)).cross(positions.at(k) - positions.at(i)) / 6.0;
-        for (const int vertex : {i, j, k}) gradient.add(vertex, third);
-    }
+void add_volume_gradient(const ClothModel& model, const ClothRange& cloth, const Vec3Arrays& positions, double factor,
+                         std::span<Vec3> sum) {
+    for_each_volume_gradient(model, cloth, positions, [&](const Triangle& t, const Vec3& gradient) {
+        for (const int vertex : t) sum[vertex - cloth.first] += factor * gradient;
+    });
 }
 
 GasState gas_state_at(const Fabric& fabric, double volume) {

@@ -8,8 +8,9 @@ namespace percale {
 /// positive where they are counter-clockwise seen from outside.
 double volume_of(const ClothModel& model, const ClothRange& cloth, const Vec3Arrays& positions);
 
-/// gradient = dV/dx, m^2: (b - a) x (c - a)/6 at each corner of a triangle, 0 at the vertices of other cloth.
-void set_volume_gradient(const ClothModel& model, const ClothRange& cloth, const Vec3Arrays& positions, Vec3Arrays& gradient);
+/// sum += factor dV/dx, m^2, with an entry for each vertex of the cloth: (b - a) x (c - a)/6 at each corner of a triangle.
+void add_volume_gradient(const ClothModel& model, const ClothRange& cloth, const Vec3Arrays& positions, double factor,
+                         std::span<Vec3> sum);
 
 /// The gas inside a closed cloth at a volume V.
 struct GasState {

@@ -23,6 +23,7 @@ std::span<const ForceTerm* const> force_terms() {
 void evaluate_forces(const ForceInput& input, Forces& forces) {
     if (forces.total.padded_size() != input.positions->padded_size()) forces.total.resize(input.model->vertex_count());
     forces.potential = 0.0;
+    forces.blocks.clear();
     for (const ForceTerm* term : force_terms()) {
         if (term->acts(input)) forces.potential += term->add(input, forces);
     }

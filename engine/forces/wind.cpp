@@ -52,7 +52,9 @@ public:
     ClothDrag(const ClothRange& cloth, const StepWind& wind, const Vec3Arrays& velocities, double dt)
         : cloth_(cloth), wind_(wind), velocities_(velocities), dt_(dt) {}
 
-    void add(const Triangle& t, const WindTriangle& placed, Vec3Arrays& forces, WindTerms& terms) const {
+    /// `blocks`: of each vertex of the model; empty: not wanted.
+    void add(const Triangle& t, const WindTriangle& placed, Vec3Arrays& forces, std::span<CoupledBlock> blocks,
+             WindPower& sum) const {
         const std::array<double, 3> weights = corner_shares(cloth_, t);
         for (int k = 0; k < 3; ++k) {
             const double factor = 0.5 * wind_.density * placed.area * weights[k];
@@ -60,9 +62,9 @@ public:
             const CornerDrag drag = corner_drag(placed.normal, v - wind_.velocity, factor * cloth_.fabric.drag_normal,
                                                 factor * cloth_.fabric.drag_tangential);
             forces.add(t[k], drag.force);
-            terms.power += drag.force.dot(v);
-            terms.potential += dt_ * drag.potential;
-            for (int entry = 0; entry < 6; ++entry) terms.blocks[t[k]][entry] += dt_ * drag.damping[entry];
+            sum.power += drag.force.dot(v);
+            sum.potential += dt_ * drag.potential;
+            for (int entry = 0; entry < 6 && !blocks.empty(); ++entry) blocks[t[k]].k[entry] += dt_ * drag.damping[entry];
         }
     }
 
@@ -78,8 +80,10 @@ public:
     std::string_view name() const override { return "wind"; }
     bool acts(const ForceInput& input) const override { return input.wind && input.wind->blows; }
     double add(const ForceInput& input, Forces& forces) const override {
-        add_wind(*input.model, *input.wind, *input.velocities, input.dt, forces.total, forces.wind);
-        return forces.wind.potential;
+        const WindPower sum = add_wind(*input.model, *input.wind, *input.velocities, input.dt, forces.total,
+                                       input.with_matrix ? &forces.blocks.coupled : nullptr);
+        forces.wind_power = sum.power;
+        return sum.potential;
     }
     bool is_internal() const override { return false; }
     bool may_be_below() const override { return true; }
@@ -122,17 +126,23 @@ void set_step_wind(const ClothModel& model, const Vec3& velocity, double density
     }
 }
 
-void add_wind(const ClothModel& model, const StepWind& wind, const Vec3Arrays& velocities, double dt, Vec3Arrays& forces,
-              WindTerms& terms) {
-    terms.power = terms.potential = 0.0;
-    terms.blocks.assign(model.mass.size(), SymmetricBlock{});
+WindPower add_wind(const ClothModel& model, const StepWind& wind, const Vec3Arrays& velocities, double dt, Vec3Arrays& forces,
+                   std::vector<CoupledBlock>* blocks) {
+    std::span<CoupledBlock> own;
+    if (blocks) {
+        for (int i = 0; i < model.vertex_count(); ++i)
+            blocks->push_back({.vertex = {i, -1, -1, -1}, .weight = {1.0, 0.0, 0.0, 0.0}, .k = {}});
+        own = std::span(*blocks).last(model.mass.size());
+    }
+    WindPower sum;
     std::size_t k = 0;
     for (const ClothRange& cloth : model.cloths) {
         const ClothDrag drag(cloth, wind, velocities, dt);
         for (; k < model.triangles.size() && model.triangles[k][0] < cloth.first + cloth.count; ++k) {
-            drag.add(model.triangles[k], wind.triangles[k], forces, terms);
+            drag.add(model.triangles[k], wind.triangles[k], forces, own, sum);
         }
     }
+    return sum;
 }
 
 }  // namespace percale

@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "block_product.h"
 #include "tolerances.h"
 
 namespace percale {
 namespace {
 
-/// Adds the contacts' product to y at free vertices; returns its contribution to x . y.
-double add_contact_product(const BlockMatrix& matrix, const Vec3Arrays& x, Vec3Arrays& y) {
+/// Adds the product of the coupled blocks to y at free vertices; returns its contribution to x . y.
+double add_coupled_product(const BlockMatrix& matrix, const Vec3Arrays& x, Vec3Arrays& y) {
     double sum = 0.0;
-    for (const CoupledBlock& block : matrix.contacts) {
+    for (std::size_t number = 0; number < matrix.coupled.size(); ++number) {
+        const CoupledBlock& block = matrix.coupled[number];
         Vec3 u = Vec3::Zero();
         for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) u += block.weight[k] * x.at(block.vertex[k]);
         const Vec3 f = block_times(block.k, u);
@@ -33,37 +33,66 @@ CornerProduct corner_product(const BlockMatrix& matrix, const SpringTerms& sprin
 /// sum |weight|: the factor that makes |w_k| K at each vertex an upper bound of the constraint.
 double bound_factor(const CoupledBlock& block) { return between_cloths(block) ? 2.0 : 1.0; }
 
-void gather_contacts(BlockMatrix& matrix) {
-    for (const VertexContact& contact : matrix.contacts_by_vertex) matrix.contact_slot[contact.vertex] = -1;
-    matrix.contacts_by_vertex.clear();
-    for (const CoupledBlock& block : matrix.contacts) {
+VertexBlocks& blocks_of(BlockMatrix& matrix, int vertex) {
+    int& slot = matrix.slot[vertex];
+    if (slot < 0) {
+        slot = static_cast<int>(matrix.by_vertex.size());
+        matrix.by_vertex.push_back({.vertex = vertex});
+    }
+    return matrix.by_vertex[slot];
+}
+
+void gather_coupled(BlockMatrix& matrix) {
+    for (std::size_t number = 0; number < matrix.coupled.size(); ++number) {
+        const CoupledBlock& block = matrix.coupled[number];
         const double factor = bound_factor(block);
         for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
             const int i = block.vertex[k];
             const double weight = factor * std::abs(block.weight[k]);
             if (weight == 0.0 || matrix.free[i] == 0.0) continue;
-            int& slot = matrix.contact_slot[i];
-            if (slot < 0) {
-                slot = static_cast<int>(matrix.contacts_by_vertex.size());
-                matrix.contacts_by_vertex.push_back({.vertex = i, .k = {}});
-            }
-            for (int entry = 0; entry < 6; ++entry) matrix.contacts_by_vertex[slot].k[entry] += weight * block.k[entry];
+            SymmetricBlock& sum = blocks_of(matrix, i).coupled;
+            for (int entry = 0; entry < 6; ++entry) sum[entry] += weight * block.k[entry];
         }
     }
 }
 
-void invert_with_contacts(BlockMatrix& matrix) {
+void gather_outer(BlockMatrix& matrix) {
+    const OuterBlocks& blocks = matrix.of_forces->outer;
+    for (int number = 0; number < blocks.size(); ++number) {
+        const OuterBlocks::Block block = blocks[number];
+        (is_local(block) ? matrix.local_outer : matrix.wide_outer).push_back(number);
+        if (!is_local(block)) continue;
+        double length = 0.0;
+        for (const Vec3& g : block.gradient) length += g.norm();
+        for (std::size_t k = 0; k < block.vertex.size(); ++k) {
+            const Vec3& g = block.gradient[k];
+            if (matrix.free[block.vertex[k]] == 0.0 || g.isZero(0.0)) continue;
+            add_normal_block(blocks_of(matrix, block.vertex[k]).outer, length / g.norm(), g);
+        }
+    }
+}
+
+void gather_blocks(BlockMatrix& matrix) {
+    for (const VertexBlocks& blocks : matrix.by_vertex) matrix.slot[blocks.vertex] = -1;
+    matrix.by_vertex.clear();
+    matrix.local_outer.clear();
+    matrix.wide_outer.clear();
+    gather_coupled(matrix);
+    gather_outer(matrix);
+}
+
+void invert_diagonal(BlockMatrix& matrix) {
     const std::size_t padded = matrix.padded();
-    const int vertices = static_cast<int>(matrix.contacts_by_vertex.size());
+    const int vertices = static_cast<int>(matrix.by_vertex.size());
     parallel_for_chunks(*matrix.compute, vertices, constraint_grain, vertices >= min_shared_constraints,
                         [&](int first, int last, int) {
                             for (int c = first; c < last; ++c) {
-                                const VertexContact& contact = matrix.contacts_by_vertex[c];
-                                std::array<double, 6> block;
-                                for (int k = 0; k < 6; ++k) block[k] = matrix.diagonal[k][contact.vertex] + contact.k[k];
-                                const std::array<double, 6> inverse = inverse_block(block);
+                                const VertexBlocks& blocks = matrix.by_vertex[c];
+                                SymmetricBlock block = matrix.diagonal.block(blocks.vertex);
+                                for (int k = 0; k < 6; ++k) block[k] += blocks.coupled[k] + blocks.outer[k];
+                                const SymmetricBlock inverse = inverse_block(block);
                                 for (int k = 0; k < 6; ++k)
-                                    matrix.inverse[k * padded + contact.vertex] = static_cast<float>(inverse[k]);
+                                    matrix.inverse[k * padded + blocks.vertex] = static_cast<float>(inverse[k]);
                             }
                         });
     for_each_vertex(*matrix.compute, matrix.slices(), [&](std::size_t i) {
@@ -78,7 +107,7 @@ bool between_cloths(const CoupledBlock& block) {
     return std::any_of(block.weight.begin(), block.weight.end(), [](double w) { return w < 0.0; });
 }
 
-std::array<double, 6> inverse_block(const std::array<double, 6>& m) {
+SymmetricBlock inverse_block(const SymmetricBlock& m) {
     const auto& [xx, xy, xz, yy, yz, zz] = m;
     const double cxx = yy * zz - yz * yz, cxy = xz * yz - xy * zz, cxz = xy * yz - xz * yy;
     const double scale = 1.0 / (xx * cxx + xy * cxy + xz * cxz);
@@ -98,9 +127,10 @@ void set_pattern(const Compute& compute, const Adjacency& pattern, std::span<con
     std::copy(mass.begin(), mass.end(), matrix.mass.begin());
     matrix.free.assign(padded, 0.0);
     std::fill_n(matrix.free.begin(), pattern.vertex_count, 1.0);
-    matrix.contact_slot.assign(padded, -1);
-    matrix.contacts_by_vertex.clear();
-    matrix.contacts = {};
+    matrix.slot.assign(padded, -1);
+    matrix.by_vertex.clear();
+    matrix.coupled = {};
+    matrix.of_forces = nullptr;
     matrix.springs = nullptr;
 }
 
@@ -123,13 +153,14 @@ void fill_diagonal(const BlockMatrix& matrix, const SpringTerms& springs, Diagon
                [&](Slices range) { matrix.compute->kernels->corner_diagonal(corners, sums, range); });
 }
 
-void fill_matrix(const SpringTerms& springs, std::span<const CoupledBlock> contacts, BlockMatrix& matrix) {
+void fill_matrix(const SpringTerms& springs, std::span<const CoupledBlock> contacts, const ForceBlocks& of_forces,
+                 BlockMatrix& matrix) {
     matrix.springs = &springs;
-    matrix.contacts = contacts;
-    matrix.pressure_blocks = {};
+    matrix.coupled = {of_forces.coupled, contacts};
+    matrix.of_forces = &of_forces;
     fill_diagonal(matrix, springs, matrix.diagonal, matrix.inverse);
-    gather_contacts(matrix);
-    invert_with_contacts(matrix);
+    gather_blocks(matrix);
+    invert_diagonal(matrix);
 }
 
 double multiply(const BlockMatrix& matrix, const Vec3Arrays& x, AlignedVector<double>& points, Vec3Arrays& y) {
@@ -150,24 +181,24 @@ double multiply_placed(const BlockMatrix& matrix, const Vec3Arrays& x, const Ali
         sum += sum_chunks(compute, matrix.slices(),
                           [&](Slices range) { return compute.kernels->multiply_corners(corners, product, range); });
     }
-    sum += add_contact_product(matrix, x, y);
-    if (matrix.pressure_blocks.empty()) return sum;
-    add_pressure_product(matrix, x, y);
+    sum += add_coupled_product(matrix, x, y);
+    const ForceBlocks& blocks = *matrix.of_forces;
+    if (blocks.outer.size() == 0 && blocks.loads.empty()) return sum;
+    add_force_product(blocks, x, y);
     filter(matrix, y);
     return dot(compute, x, y);
 }
 
-void add_pressure_product(const BlockMatrix& matrix, const Vec3Arrays& x, Vec3Arrays& y) {
-    const Vec3Arrays& q = *matrix.positions;
-    for (const PressureBlock& block : matrix.pressure_blocks) {
-        if (block.stiffness > 0.0) add_scaled(y, block.stiffness * dot(*matrix.compute, block.gradient, x), block.gradient);
-        // The change of the gradient (b - a) x (c - a)/6 that each corner has.
-        const double factor = -block.load / 6.0;
-        for (const auto& [i, j, k] : block.triangles) {
-            const Vec3 a = q.at(i), u = x.at(i);
-            const Vec3 change = factor * ((x.at(j) - u).cross(q.at(k) - a) + (q.at(j) - a).cross(x.at(k) - u));
-            for (const int vertex : {i, j, k}) y.add(vertex, change);
-        }
+void add_force_product(const ForceBlocks& blocks, const Vec3Arrays& x, Vec3Arrays& y) {
+    for (int number = 0; number < blocks.outer.size(); ++number) {
+        const OuterBlocks::Block block = blocks.outer[number];
+        const double along = dot(block, x);
+        for (std::size_t k = 0; k < block.vertex.size(); ++k) y.add(block.vertex[k], along * block.gradient[k]);
+    }
+    for (const auto& [vertex, first, second] : blocks.loads) {
+        const Vec3 a = x.at(vertex[0]);
+        const Vec3 change = (x.at(vertex[1]) - a).cross(second) + first.cross(x.at(vertex[2]) - a);
+        for (const int corner : vertex) y.add(corner, change);
     }
 }
 

@@ -14,21 +14,26 @@ namespace percale {
 /// The place of entry (a, b) of a symmetric block in xx xy xz yy yz zz.
 constexpr int symmetric_entry[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
 
-/// The sum of all contacts of one vertex in its diagonal block, each constraint taken whole at every vertex by weight (an upper
-/// bound that equals the constraint itself where the vertices move alike, or between cloths where the two sides move against each
-/// other).
-struct VertexContact {
+/// The sum of all coupled blocks of one vertex in its diagonal block, each taken whole at every vertex by weight (an upper bound
+/// that equals the block itself where the vertices move alike, or between cloths where the two sides move against each other);
+/// and that of its local outer blocks, (sum_l |g_l|)/|g_k| g_k g_k^T, an upper bound by the Cauchy-Schwarz inequality.
+struct VertexBlocks {
     int vertex;
-    std::array<double, 6> k;  // kg, xx xy xz yy yz zz
+    SymmetricBlock coupled = {}, outer = {};  // kg
 };
 
 /// Whether a contact constraint is between cloths, or parts of one, rather than with an obstacle: some weights are negative.
 bool between_cloths(const CoupledBlock& block);
 
+/// Vertices up to which an outer block counts as local: in the diagonal blocks and the factor. For larger ones, such as those of
+/// gas, that bound is too stiff by their number of vertices; a LowRankUpdate takes them into account.
+constexpr std::size_t max_local_vertices = 12;
+inline bool is_local(const OuterBlocks::Block& block) { return block.vertex.size() <= max_local_vertices; }
+
 /// The step matrix A = M - dt Jv - dt^2 Jq, kg. Springs act on differences of vertices by blocks a I + w w^T, held in single
-/// precision: each is then a spring whose stiffness is exact to 6e-8, and the matrix is exactly symmetric and, without pressure
-/// blocks, positive definite. The coupling of the edges of a membrane's triangle is added corner by corner
-/// (SpringTerms::corners). Masses and contact constraints are in double precision, contacts kept apart.
+/// precision: each is then a spring whose stiffness is exact to 6e-8, and the matrix is exactly symmetric and, without loads,
+/// positive definite. The coupling of the edges of a membrane's triangle is added corner by corner (SpringTerms::corners).
+/// Masses and all other blocks are in double precision and kept apart.
 struct BlockMatrix {
     const Adjacency* pattern = nullptr;
     const Compute* compute = nullptr;
@@ -36,12 +41,12 @@ struct BlockMatrix {
     AlignedVector<double> mass;              // kg; 1 for padding
     AlignedVector<double> free;              // 1, or 0 for a vertex whose motion is prescribed and for padding
     DiagonalBlocks diagonal;                 // mass and springs
-    AlignedVector<float> inverse;            // of the diagonal blocks with contact, six arrays; 0 at prescribed vertices
-    std::span<const CoupledBlock> contacts;  // viewed, not copied
-    std::vector<VertexContact> contacts_by_vertex;
-    std::span<const PressureBlock> pressure_blocks;  // viewed, not copied; in no preconditioner
-    const Vec3Arrays* positions = nullptr;           // m, at which the pressure blocks were made
-    std::vector<int> contact_slot;                   // of a vertex in contacts_by_vertex, or -1
+    AlignedVector<float> inverse;            // of the diagonal blocks with `by_vertex`, six arrays; 0 at prescribed vertices
+    CoupledBlocks coupled;                   // viewed, not copied
+    const ForceBlocks* of_forces = nullptr;  // viewed, not copied: outer blocks, and loads, which are in no preconditioner
+    std::vector<int> local_outer, wide_outer;
+    std::vector<VertexBlocks> by_vertex;  // of all coupled and local outer blocks
+    std::vector<int> slot;                // of a vertex in by_vertex, or -1
 
     std::size_t padded() const { return free.size(); }
     int slices() const { return pattern->slices(); }
@@ -54,11 +59,12 @@ void set_pattern(const Compute& compute, const Adjacency& pattern, std::span<con
 void fill_diagonal(const BlockMatrix& matrix, const SpringTerms& springs, DiagonalBlocks& diagonal,
                    AlignedVector<float>& inverse);
 
-/// Takes springs and contacts of a state; removes pressure blocks.
-void fill_matrix(const SpringTerms& springs, std::span<const CoupledBlock> contacts, BlockMatrix& matrix);
+/// Takes springs, contacts and the blocks of forces of a state.
+void fill_matrix(const SpringTerms& springs, std::span<const CoupledBlock> contacts, const ForceBlocks& of_forces,
+                 BlockMatrix& matrix);
 
-/// y += A_e x at all vertices, where A_e are the pressure blocks.
-void add_pressure_product(const BlockMatrix& matrix, const Vec3Arrays& x, Vec3Arrays& y);
+/// y += A_b x at all vertices, where A_b are the outer blocks and the loads.
+void add_force_product(const ForceBlocks& blocks, const Vec3Arrays& x, Vec3Arrays& y);
 
 /// y = A x on the free vertices, 0 at prescribed ones; returns x . y over the free ones. `points` is work space.
 double multiply(const BlockMatrix& matrix, const Vec3Arrays& x, AlignedVector<double>& points, Vec3Arrays& y);
@@ -77,6 +83,6 @@ void precondition(const BlockMatrix& matrix, const Vec3Arrays& r, Vec3Arrays& z,
 void filter(const BlockMatrix& matrix, Vec3Arrays& x);
 
 /// The inverse of a symmetric positive definite 3x3 block xx xy xz yy yz zz, by cofactors.
-std::array<double, 6> inverse_block(const std::array<double, 6>& m);
+SymmetricBlock inverse_block(const SymmetricBlock& m);
 
 }  // namespace percale

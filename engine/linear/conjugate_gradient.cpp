@@ -30,7 +30,7 @@ public:
             });
             const double curvature = multiply_placed(matrix_, space_.p, space_.points, space_.q);
             if (!(curvature > 0.0) || !std::isfinite(rz)) {
-                if (!matrix_.pressure_blocks.empty() && report.iterations == 1) add_scaled(x, 1.0, space_.p);
+                if (!matrix_.of_forces->loads.empty() && report.iterations == 1) add_scaled(x, 1.0, space_.p);
                 return report;
             }
             const double alpha = rz / curvature;

@@ -19,7 +19,7 @@ using Preconditioner = std::function<void(const Vec3Arrays& r, Vec3Arrays& z)>;
 
 /// Conjugate gradient for A x = b on the free vertices (Hestenes and Stiefel 1952) in double precision, preconditioned by block
 /// Jacobi if nothing else is given. Energy gains are taken over ten iterations. Where A turns out not to be positive definite, as
-/// pressure blocks may make it, x is the last iterate, at least the preconditioned b: r . x > 0, so that it leads downhill
+/// loads may make it, x is the last iterate, at least the preconditioned b: r . x > 0, so that it leads downhill
 /// (Nocedal and Wright, Numerical Optimization, algorithm 7.1).
 /// On entry x holds the prescribed values of the other vertices, which stay, and a first guess at the free ones.
 SolveReport solve_cg(const BlockMatrix& matrix, const Vec3Arrays& b, const SolveTarget& target, SolveSpace& space, Vec3Arrays& x,

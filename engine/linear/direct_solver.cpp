@@ -33,14 +33,25 @@ void add_row(const BlockMatrix& matrix, int i, Triplets& entries) {
     });
 }
 
-void add_contact(const BlockMatrix& matrix, const CoupledBlock& contact, Triplets& entries) {
-    for (int k = 0; k < 4 && contact.vertex[k] >= 0; ++k) {
+void add_coupled(const BlockMatrix& matrix, const CoupledBlock& coupled, Triplets& entries) {
+    for (int k = 0; k < 4 && coupled.vertex[k] >= 0; ++k) {
         for (int l = 0; l <= k; ++l) {
-            const int i = contact.vertex[k], j = contact.vertex[l];
+            const int i = coupled.vertex[k], j = coupled.vertex[l];
             if (matrix.free[i] == 0.0 || matrix.free[j] == 0.0) continue;
-            std::array<double, 6> block = contact.k;
-            for (double& entry : block) entry *= contact.weight[k] * contact.weight[l];
+            std::array<double, 6> block = coupled.k;
+            for (double& entry : block) entry *= coupled.weight[k] * coupled.weight[l];
             add_block(i, j, block, entries);
+        }
+    }
+}
+
+void add_outer(const BlockMatrix& matrix, const OuterBlocks::Block& block, Triplets& entries) {
+    for (std::size_t k = 0; k < 3 * block.vertex.size(); ++k) {
+        for (std::size_t l = 0; l < 3 * block.vertex.size(); ++l) {
+            const int i = block.vertex[k / 3], j = block.vertex[l / 3];
+            const int row = 3 * i + static_cast<int>(k % 3), column = 3 * j + static_cast<int>(l % 3);
+            if (row < column || matrix.free[i] == 0.0 || matrix.free[j] == 0.0) continue;
+            entries.emplace_back(row, column, block.gradient[k / 3][k % 3] * block.gradient[l / 3][l % 3]);
         }
     }
 }
@@ -54,7 +65,8 @@ void assemble(const BlockMatrix& matrix, Triplets& entries) {
         add_block(i, i, block, entries);
     }
     for (int i = 0; i < matrix.pattern->vertex_count; ++i) add_row(matrix, i, entries);
-    for (const CoupledBlock& contact : matrix.contacts) add_contact(matrix, contact, entries);
+    for (std::size_t number = 0; number < matrix.coupled.size(); ++number) add_coupled(matrix, matrix.coupled[number], entries);
+    for (const int number : matrix.local_outer) add_outer(matrix, matrix.of_forces->outer[number], entries);
 }
 
 }  // namespace

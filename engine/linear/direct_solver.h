@@ -20,7 +20,7 @@ public:
     bool solve(const BlockMatrix& matrix, const Vec3Arrays& b, Vec3Arrays& x);
 
     /// The two halves of solve: false if the matrix is not positive definite; x = A^-1 r on the free vertices, 0 at the others,
-    /// with the matrix factorised last, without its pressure blocks.
+    /// with the matrix factorised last, without its loads and its outer blocks that are not local.
     bool factorise(const BlockMatrix& matrix);
     void apply(const BlockMatrix& matrix, const Vec3Arrays& r, Vec3Arrays& x) const;
 

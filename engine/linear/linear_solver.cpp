@@ -40,14 +40,9 @@ void StepSolver::set_model(const Compute& compute, const ClothModel& model, Line
     stale_ = true;
 }
 
-void StepSolver::fill(const SpringTerms& springs, std::span<const CoupledBlock> contacts) {
-    fill_matrix(springs, contacts, matrix);
+void StepSolver::fill(const SpringTerms& springs, std::span<const CoupledBlock> contacts, const ForceBlocks& of_forces) {
+    fill_matrix(springs, contacts, of_forces, matrix);
     if (in_use_ == LinearSolver::multigrid) fill_multigrid();
-}
-
-void StepSolver::add_pressure_blocks(std::span<const PressureBlock> blocks, const Vec3Arrays& positions) {
-    matrix.pressure_blocks = blocks;
-    matrix.positions = &positions;
 }
 
 void StepSolver::fill_multigrid() {
@@ -57,29 +52,39 @@ void StepSolver::fill_multigrid() {
     stale_ = false;
 }
 
-SolveReport StepSolver::solve_enclosed(const Vec3Arrays& b, const SolveTarget& target, Vec3Arrays& x) {
-    if (in_use_ == LinearSolver::cg) {
-        const SolveReport report = solve_cg(matrix, b, target, space_, x);
-        const bool dear = wish_ == LinearSolver::automatic && model_->vertex_count() > dense_vertices;
-        if (dear && report.iterations > dear_jacobi_iterations) {
-            in_use_ = LinearSolver::multigrid;
-            fill_multigrid();
-        }
-        return report;
-    }
+/// That of the solver in use, without loads and wide outer blocks.
+Preconditioner StepSolver::preconditioner() {
     if (in_use_ == LinearSolver::multigrid) {
-        return solve_cg(matrix, b, target, space_, x, [this](const Vec3Arrays& r, Vec3Arrays& z) {
+        return [this](const Vec3Arrays& r, Vec3Arrays& z) {
             if (!estimate(r, z)) z.resize(static_cast<int>(r.padded_size()));
-        });
+        };
     }
-    if (!direct_) direct_ = std::make_unique<DirectSolver>();
-    const bool factorised = direct_->factorise(matrix);
-    const Preconditioner direct = [this](const Vec3Arrays& r, Vec3Arrays& z) { direct_->apply(matrix, r, z); };
-    return solve_cg(matrix, b, target, space_, x, factorised ? direct : Preconditioner());
+    if (in_use_ == LinearSolver::direct) {
+        if (!direct_) direct_ = std::make_unique<DirectSolver>();
+        if (direct_->factorise(matrix)) return [this](const Vec3Arrays& r, Vec3Arrays& z) { direct_->apply(matrix, r, z); };
+    }
+    return [this](const Vec3Arrays& r, Vec3Arrays& z) {
+        if (z.padded_size() != r.padded_size()) z.resize(static_cast<int>(r.padded_size()));
+        for_chunks(*matrix.compute, matrix.slices(), [&](Slices range) { precondition(matrix, r, z, range); });
+    };
+}
+
+/// With loads or wide outer blocks.
+SolveReport StepSolver::solve_wide(const Vec3Arrays& b, const SolveTarget& target, Vec3Arrays& x) {
+    low_rank_.fill(matrix, preconditioner());
+    const SolveReport report =
+        solve_cg(matrix, b, target, space_, x, [this](const Vec3Arrays& r, Vec3Arrays& z) { low_rank_.apply(r, z); });
+    const bool may_change =
+        in_use_ == LinearSolver::cg && wish_ == LinearSolver::automatic && model_->vertex_count() > dense_vertices;
+    if (may_change && report.iterations > dear_jacobi_iterations) {
+        in_use_ = LinearSolver::multigrid;
+        fill_multigrid();
+    }
+    return report;
 }
 
 SolveReport StepSolver::solve(const Vec3Arrays& b, const SolveTarget& target, Vec3Arrays& x) {
-    if (!matrix.pressure_blocks.empty()) return solve_enclosed(b, target, x);
+    if (!matrix.of_forces->loads.empty() || !matrix.wide_outer.empty()) return solve_wide(b, target, x);
     int before = 0;
     if (in_use_ == LinearSolver::cg) {
         const bool may_change = wish_ == LinearSolver::automatic && model_->vertex_count() > dense_vertices;

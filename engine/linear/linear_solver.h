@@ -4,6 +4,7 @@
 
 #include "conjugate_gradient.h"
 #include "direct_solver.h"
+#include "low_rank_update.h"
 #include "model/cloth_model.h"
 #include "multigrid_solve.h"
 #include "percale/settings.h"
@@ -30,19 +31,16 @@ public:
     /// A new stage begins: data kept from earlier matrices is computed anew.
     void start_stage() { stale_ = true; }
 
-    /// Takes springs and contacts of a state.
-    void fill(const SpringTerms& springs, std::span<const CoupledBlock> contacts);
-    /// Then adds pressure blocks, taken at these positions, to every product of A but to no preconditioner. They are few
-    /// directions, for which conjugate gradient needs an iteration or two more.
-    void add_pressure_blocks(std::span<const PressureBlock> blocks, const Vec3Arrays& positions);
+    /// Takes springs, contacts and the blocks of forces of a state; loads are in every product of A but in no preconditioner.
+    void fill(const SpringTerms& springs, std::span<const CoupledBlock> contacts, const ForceBlocks& of_forces);
 
     /// A x = b on the free vertices, prescribed entries of x kept. Where multigrid or the factorisation does not converge,
     /// conjugate gradient with block Jacobi in double precision continues.
     SolveReport solve(const Vec3Arrays& b, const SolveTarget& target, Vec3Arrays& x);
 
     /// A cheap estimate of A^-1 r with the matrix last filled in: z = one application of the preconditioner. False where that is
-    /// no good estimate, as with block Jacobi. Pressure blocks are left out: for a cloth that holds gas z is too large rather
-    /// than too small.
+    /// no good estimate, as with block Jacobi. Loads and outer blocks that are not local are left out: for a cloth that holds
+    /// gas z is too large rather than too small.
     bool estimate(const Vec3Arrays& r, Vec3Arrays& z);
 
     /// The solver with which `automatic` begins for the next model; cg by default.
@@ -65,7 +63,8 @@ public:
 
 private:
     void fill_multigrid();
-    SolveReport solve_enclosed(const Vec3Arrays& b, const SolveTarget& target, Vec3Arrays& x);
+    Preconditioner preconditioner();
+    SolveReport solve_wide(const Vec3Arrays& b, const SolveTarget& target, Vec3Arrays& x);
 
     const ClothModel* model_ = nullptr;
     LinearSolver wish_ = LinearSolver::automatic;
@@ -73,6 +72,7 @@ private:
     LinearSolver in_use_ = LinearSolver::cg;
     std::unique_ptr<Multigrid> multigrid_;
     std::unique_ptr<DirectSolver> direct_;
+    LowRankUpdate low_rank_;
     bool stale_ = true;         // multigrid's coarser levels must be computed anew
     int fresh_iterations_ = 0;  // of the first solve with them
     SolveSpace space_;

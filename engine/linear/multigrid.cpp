@@ -143,44 +143,52 @@ void Multigrid::fill(const BlockMatrix& matrix, Coarser coarser) {
         }
     });
     ease(fine);
-    contacts_ = matrix.contacts;
-    find_between(matrix);
+    coupled_ = matrix.coupled;
+    outer_.clear();
+    for (const int number : matrix.local_outer) outer_.push_back(matrix.of_forces->outer[number]);
+    find_exact(matrix);
     set_filters(matrix);
-    set_contact_constraints(matrix);
+    set_rows(matrix);
     if (coarser == Coarser::kept) return;
     expand_blocks(*matrix.springs);
     for (int k = 1; k < levels(); ++k) fill_level(k);
     if (bottom_size_ > 0) fill_bottom();
 }
 
-/// Finds the constraints between cloths, if some of them are stiffer than their vertex.
-void Multigrid::find_between(const BlockMatrix& matrix) {
-    between_constraints_.clear();
+/// Finds the constraints between cloths, if some of them are stiffer than their vertex, and the outer blocks.
+void Multigrid::find_exact(const BlockMatrix& matrix) {
+    exact_rows_.clear();
+    sweeps_ = false;
     if (levels() == 1) return;
-    bool any_is_stiff = false;
-    for (std::size_t row = 0; row < contacts_.size(); ++row) {
-        const CoupledBlock& block = contacts_[row];
+    for (std::size_t row = 0; row < coupled_.size(); ++row) {
+        const CoupledBlock& block = coupled_[row];
         if (!between_cloths(block)) continue;
-        between_constraints_.push_back(static_cast<int>(row));
+        exact_rows_.push_back(static_cast<int>(row));
         const int i = block.vertex[0];
         const double own = matrix.diagonal[0][i] + matrix.diagonal[3][i] + matrix.diagonal[5][i];
-        any_is_stiff = any_is_stiff || trace(block.k) > stiff_constraint_factor * own;
+        sweeps_ = sweeps_ || trace(block.k) > stiff_constraint_factor * own;
     }
-    if (!any_is_stiff) between_constraints_.clear();
-    if (any_is_stiff) change_.assign(3 * padded(), 0.0f);  // 0 at all entries that no sweep sets
+    if (!sweeps_) exact_rows_.clear();
+    if (sweeps_) change_.assign(3 * padded(), 0.0f);  // 0 at all entries that no sweep sets
+    for (std::size_t k = 0; k < outer_.size(); ++k) exact_rows_.push_back(static_cast<int>(coupled_.size() + k));
 }
 
-/// Sets VertexContact::k of each vertex without the constraints between cloths that are taken exactly.
+bool Multigrid::is_exact(std::size_t row) const {
+    return row < coupled_.size() ? sweeps_ && between_cloths(coupled_[row]) : levels() > 1;
+}
+
+/// Sets VertexBlocks::coupled of each vertex without the constraints between cloths that are taken exactly.
 void Multigrid::set_held_alone(const BlockMatrix& matrix) {
-    held_.assign(matrix.contacts_by_vertex.size(), {});
-    if (between_constraints_.empty()) {
-        std::ranges::transform(matrix.contacts_by_vertex, held_.begin(), &VertexContact::k);
+    held_.assign(matrix.by_vertex.size(), {});
+    if (!sweeps_) {
+        std::ranges::transform(matrix.by_vertex, held_.begin(), &VertexBlocks::coupled);
         return;
     }
-    for (const CoupledBlock& block : contacts_) {
+    for (std::size_t row = 0; row < coupled_.size(); ++row) {
+        const CoupledBlock& block = coupled_[row];
         if (between_cloths(block)) continue;
         for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
-            const int slot = matrix.contact_slot[block.vertex[k]];
+            const int slot = matrix.slot[block.vertex[k]];
             const double weight = std::abs(block.weight[k]);
             for (int entry = 0; entry < 6 && slot >= 0; ++entry) held_[slot][entry] += weight * block.k[entry];
         }
@@ -189,77 +197,83 @@ void Multigrid::set_held_alone(const BlockMatrix& matrix) {
 
 void Multigrid::set_filters(const BlockMatrix& matrix) {
     filtered_.clear();
-    filter_of_slot_.assign(matrix.contacts_by_vertex.size(), -1);
-    const auto diagonal = [&](int i) {
-        Block block;
-        for (int k = 0; k < 6; ++k) block[k] = matrix.diagonal[k][i];
-        return block;
-    };
+    filter_of_slot_.assign(matrix.by_vertex.size(), -1);
     for (int i = 0; i < adjacency_.vertex_count; ++i) {
         if (matrix.free[i] > 0.0) continue;
-        Block ground = diagonal(i);
+        Block ground = matrix.diagonal.block(i);
         for (const int k : {0, 3, 5}) ground[k] -= matrix.mass[i];
         filtered_.push_back({.vertex = i, .filter = {}, .contact = {}, .ground = ground});
     }
     prescribed_ = static_cast<int>(filtered_.size());
     set_held_alone(matrix);
     for (std::size_t slot = 0; slot < filter_of_slot_.size(); ++slot) {
-        const VertexContact& contact = matrix.contacts_by_vertex[slot];
-        if (!(trace(contact.k) > 0.0)) continue;
+        const auto& [i, coupled, outer] = matrix.by_vertex[slot];
+        const bool is_coupled = trace(coupled) > 0.0;
+        if (!is_coupled && !(trace(outer) > 0.0)) continue;
         filter_of_slot_[slot] = static_cast<int>(filtered_.size());
-        const Block soft = softening(diagonal(contact.vertex), contact.k);
-        Filtered vertex{.vertex = contact.vertex,
-                        .filter = to_float(soft),
-                        .contact = to_float(held_[slot]),
-                        .ground = block_product(soft, contact.k)};
-        if (!(trace(held_[slot]) > 0.0)) {
-            vertex.filter = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f};
-        } else if (held_[slot] != contact.k) {
-            vertex.filter = to_float(softening(diagonal(contact.vertex), held_[slot]));
+        Filtered vertex{
+            .vertex = i, .filter = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f}, .contact = to_float(held_[slot]), .ground = {}};
+        if (is_coupled) {
+            const Block soft = softening(matrix.diagonal.block(i), coupled);
+            vertex.ground = block_product(soft, coupled);
+            if (held_[slot] == coupled) vertex.filter = to_float(soft);
         }
+        if (held_[slot] != coupled && trace(held_[slot]) > 0.0)
+            vertex.filter = to_float(softening(matrix.diagonal.block(i), held_[slot]));
         filtered_.push_back(vertex);
     }
     by_vertex_.clear();
     int next = 0;
     for (int i = 0; i < adjacency_.vertex_count; ++i) {
         if (next < prescribed_ && filtered_[next].vertex == i) by_vertex_.push_back(next++);
-        const int slot = matrix.contact_slot[i];
+        const int slot = matrix.slot[i];
         if (slot >= 0 && filter_of_slot_[slot] >= 0) by_vertex_.push_back(filter_of_slot_[slot]);
     }
     before_.resize(filtered_.size());
 }
 
-/// Lists constraints vertex by vertex in their order, so that sums over a vertex do not depend on the thread; those that are
-/// taken exactly come first.
-void Multigrid::set_contact_constraints(const BlockMatrix& matrix) {
-    constraint_force_.resize(contacts_.size());
-    const auto for_ends = [&](bool of_between, auto work) {
-        for (std::size_t row = 0; row < contacts_.size(); ++row) {
-            const CoupledBlock& block = contacts_[row];
-            if ((!between_constraints_.empty() && between_cloths(block)) != of_between) continue;
+/// Lists rows vertex by vertex in their order, so that sums over a vertex do not depend on the thread; those that are taken
+/// exactly come first.
+void Multigrid::set_rows(const BlockMatrix& matrix) {
+    const std::size_t rows = coupled_.size() + outer_.size();
+    row_force_.resize(rows);
+    const auto for_row_ends = [&](std::size_t row, auto work) {
+        const auto at = [&](int i, const FloatVec& factor) {
+            const int slot = matrix.slot[i];
+            if (slot < 0 || filter_of_slot_[slot] < 0 || factor == FloatVec{}) return;
+            work(filtered_[filter_of_slot_[slot]], RowEnd{static_cast<int>(row), factor});
+        };
+        if (row < coupled_.size()) {
+            const CoupledBlock& block = coupled_[row];
             for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
-                const int slot = matrix.contact_slot[block.vertex[k]];
-                if (slot < 0 || filter_of_slot_[slot] < 0 || block.weight[k] == 0.0) continue;
-                work(filtered_[filter_of_slot_[slot]], static_cast<int>(row), static_cast<float>(block.weight[k]));
+                const float weight = static_cast<float>(block.weight[k]);
+                at(block.vertex[k], {weight, weight, weight});
             }
+            return;
+        }
+        const OuterBlocks::Block& block = outer_[row - coupled_.size()];
+        for (std::size_t k = 0; k < block.vertex.size(); ++k) {
+            const Vec3& g = block.gradient[k];
+            at(block.vertex[k], {static_cast<float>(g.x()), static_cast<float>(g.y()), static_cast<float>(g.z())});
         }
     };
-    for_ends(true, [](Filtered& vertex, int, float) { ++vertex.between; });
-    for_ends(false, [](Filtered& vertex, int, float) { ++vertex.rows; });
+    for (std::size_t row = 0; row < rows; ++row)
+        for_row_ends(row, [exact = is_exact(row)](Filtered& vertex, const RowEnd&) { ++(exact ? vertex.exact : vertex.rows); });
     int first = 0;
-    between_.clear();
+    exact_.clear();
     for (std::size_t number = 0; number < filtered_.size(); ++number) {
         Filtered& vertex = filtered_[number];
-        if (vertex.between > 0) between_.push_back(static_cast<int>(number));
+        if (vertex.exact > 0) exact_.push_back(static_cast<int>(number));
         vertex.first_row = first;
-        first += vertex.between + vertex.rows;
+        first += vertex.exact + vertex.rows;
         vertex.rows = 0;
     }
-    constraint_ends_.resize(first);
-    for (const bool of_between : {true, false}) {
-        for_ends(of_between, [&](Filtered& vertex, int row, float weight) {
-            constraint_ends_[vertex.first_row + vertex.rows++] = {row, weight};
-        });
+    row_ends_.resize(first);
+    for (const bool exact : {true, false}) {
+        for (std::size_t row = 0; row < rows; ++row) {
+            if (is_exact(row) != exact) continue;
+            for_row_ends(row, [&](Filtered& vertex, const RowEnd& end) { row_ends_[vertex.first_row + vertex.rows++] = end; });
+        }
     }
 }
 

@@ -23,6 +23,8 @@ using FloatVec = std::array<float, 3>;
 /// follows the S of all others: a few sweeps of block Jacobi on them, x -= tau D^-1 C x, with the factors tau that minimise the
 /// largest energy l F(l)^2 over the eigenvalues l of D^-1 C (smoothed aggregation: Vanek, Mandel and Brezina 1996, Computing 56).
 /// Coarser diagonals keep S K of all constraints: without it layers move far apart, and stiff constraints need more iterations.
+///
+/// Local outer blocks are exact on the finest level, too; coarser ones leave them out, and are too soft for them.
 class Multigrid {
 public:
     /// The springs of `pattern` in rest positions (m, one per vertex). All arguments are viewed.
@@ -45,7 +47,7 @@ public:
     void correct() { correct(0); }
     void finish(Slices range) { finish(0, range); }
 
-    /// y = A x at the finest level, contact constraints exact; x and y are 0 at prescribed vertices.
+    /// y = A x at the finest level, constraints and local outer blocks exact; x and y are 0 at prescribed vertices.
     void multiply(const AlignedVector<float>& x, AlignedVector<float>& y);
     /// The same in parts: `place` for all ranges, which copies x into the layout that the product reads; then `set_row_forces`;
     /// then `product` for all ranges.
@@ -80,23 +82,25 @@ private:
         std::array<float, 6> filter;   // S
         std::array<float, 6> contact;  // kg, a bound of the constraints that are not taken exactly, for the residual of level 0
         std::array<double, 6> ground;  // kg, for the next level
-        int first_row = 0, rows = 0;   // in constraint_ends_
-        int between = 0;               // the first ones of these, which are taken exactly
+        int first_row = 0, rows = 0;   // in row_ends_
+        int exact = 0;                 // the first ones of these, which are taken exactly
     };
-    /// The part of a contact constraint at one vertex: weight * constraint_force_[row].
-    struct ConstraintEnd {
+    /// The part of a row, a coupled block or a local outer one, at one vertex: factor * row_force_[row], entry by entry; all
+    /// entries of `factor` are a weight, or all entries of the force the number g . x.
+    struct RowEnd {
         int row;
-        float weight;
+        FloatVec factor;
     };
 
     void add_level(const LevelPattern& pattern);
     void find_eased();
     void ease(Level& level) const;
     Level sized_level(EntryPattern pattern, int slices) const;
-    void find_between(const BlockMatrix& matrix);
+    void find_exact(const BlockMatrix& matrix);
+    bool is_exact(std::size_t row) const;
     void set_held_alone(const BlockMatrix& matrix);
     void set_filters(const BlockMatrix& matrix);
-    void set_contact_constraints(const BlockMatrix& matrix);
+    void set_rows(const BlockMatrix& matrix);
     void expand_blocks(const SpringTerms& springs);
     void expand_stretch(const SpringTerms& springs, int first_pair, int last_pair);
     void fill_level(int k);
@@ -120,11 +124,11 @@ private:
     template <class Work>
     void for_filtered(Slices range, Work work);
     template <class Work>
-    void for_between(Work work);
+    void for_exact(Work work);
     // These work on the finest level as a whole.
-    template <class ConstraintAt>
-    void set_forces(const AlignedVector<float>& x, std::size_t rows, ConstraintAt constraint_at);
-    void set_between_forces(const AlignedVector<float>& x);
+    template <class RowAt>
+    void set_forces(const AlignedVector<float>& x, std::size_t rows, RowAt row_at);
+    void set_exact_forces(const AlignedVector<float>& x);
     void sweep_residual();
     void sweep_change();
     void correct(int k);
@@ -137,17 +141,19 @@ private:
     AlignedVector<float> guarded_;                   // work space of products with bands
     std::vector<LevelPattern> patterns_;
     std::vector<Level> levels_;
-    std::span<const CoupledBlock> contacts_;
+    CoupledBlocks coupled_;
+    std::vector<OuterBlocks::Block> outer_;        // local; their rows follow those of coupled blocks
     std::vector<Filtered> filtered_;               // prescribed vertices first
-    std::vector<int> by_vertex_, filter_of_slot_;  // of filtered_: ascending by vertex; of BlockMatrix::contacts_by_vertex
+    std::vector<int> by_vertex_, filter_of_slot_;  // of filtered_: ascending by vertex; of BlockMatrix::by_vertex
     int prescribed_ = 0;
-    std::vector<ConstraintEnd> constraint_ends_;
-    std::vector<std::array<double, 6>> held_;  // work space of set_filters
-    std::vector<int> between_constraints_;     // constraints between cloths, if some of them are stiff
-    std::vector<int> between_;                 // their vertices in filtered_
-    std::vector<FloatVec> constraint_force_;   // work space: of the vector that constraints last acted on
-    std::vector<FloatVec> before_;             // x before prolong
-    AlignedVector<float> change_;              // of sweeps, sized on first use
+    std::vector<RowEnd> row_ends_;
+    std::vector<SymmetricBlock> held_;  // work space of set_filters
+    bool sweeps_ = false;               // some constraints between cloths are stiff; all of them are then exact
+    std::vector<int> exact_rows_;       // these, and all outer blocks, where there are coarser levels
+    std::vector<int> exact_;            // their vertices in filtered_
+    std::vector<FloatVec> row_force_;   // work space: of the vector that rows last acted on
+    std::vector<FloatVec> before_;      // x before prolong
+    AlignedVector<float> change_;       // of sweeps, sized on first use
     AlignedVector<double> bottom_;
     AlignedVector<float> bottom_inverse_, bottom_x_, bottom_y_;
     int bottom_size_ = 0, bottom_stride_ = 0;

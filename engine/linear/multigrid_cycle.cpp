@@ -41,13 +41,24 @@ std::array<float, constraint_sweeps> constraint_sweep_factors() {
     return factors;
 }
 
-/// K sum w x of one constraint.
-FloatVec row_force(const CoupledBlock& row, const FloatVec3Arrays& x) {
+/// K sum w x of a coupled block.
+FloatVec row_force(const CoupledBlock& block, const FloatVec3Arrays& x) {
     FloatVec u{};
-    for (int k = 0; k < 4 && row.vertex[k] >= 0; ++k) u = sum(u, scaled(static_cast<float>(row.weight[k]), at(x, row.vertex[k])));
-    FloatBlock block;
-    for (int k = 0; k < 6; ++k) block[k] = static_cast<float>(row.k[k]);
-    return times(block, u);
+    for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k)
+        u = sum(u, scaled(static_cast<float>(block.weight[k]), at(x, block.vertex[k])));
+    FloatBlock k;
+    for (int entry = 0; entry < 6; ++entry) k[entry] = static_cast<float>(block.k[entry]);
+    return times(k, u);
+}
+
+/// g . x of an outer block, three times.
+FloatVec row_force(const OuterBlocks::Block& block, const FloatVec3Arrays& x) {
+    float along = 0.0f;
+    for (std::size_t k = 0; k < block.vertex.size(); ++k) {
+        const FloatVec u = at(x, block.vertex[k]);
+        for (int axis = 0; axis < 3; ++axis) along += static_cast<float>(block.gradient[k][axis]) * u[axis];
+    }
+    return {along, along, along};
 }
 
 }  // namespace
@@ -64,12 +75,12 @@ void Multigrid::for_filtered(Slices range, Work work) {
     for (auto it = first; it != by_vertex_.end() && vertex(*it) < range.last * slice_lanes; ++it) work(filtered_[*it], *it);
 }
 
-/// Calls work(vertex, its number) for all vertices with constraints between cloths that are taken exactly, in any order.
+/// Calls work(vertex, its number) for all vertices with rows that are taken exactly, in any order.
 template <class Work>
-void Multigrid::for_between(Work work) {
-    const int count = static_cast<int>(between_.size());
+void Multigrid::for_exact(Work work) {
+    const int count = static_cast<int>(exact_.size());
     parallel_for_chunks(compute_, count, constraint_grain, count >= min_shared_constraints, [&](int first, int last, int) {
-        for (int k = first; k < last; ++k) work(filtered_[between_[k]], between_[k]);
+        for (int k = first; k < last; ++k) work(filtered_[exact_[k]], exact_[k]);
     });
 }
 
@@ -113,29 +124,34 @@ void Multigrid::multiply_level(int k, const AlignedVector<float>& x, const float
     compute_.kernels->multiply_float_corners(corners, pass, range);
 }
 
-/// Sets constraint_force_ of the constraints number constraint_at(0), constraint_at(1) ...
-template <class ConstraintAt>
-void Multigrid::set_forces(const AlignedVector<float>& x, std::size_t rows, ConstraintAt constraint_at) {
+/// Sets row_force_ of the rows number row_at(0), row_at(1) ...
+template <class RowAt>
+void Multigrid::set_forces(const AlignedVector<float>& x, std::size_t rows, RowAt row_at) {
     const FloatVec3Arrays from = view(x, levels_[0]);
     const int count = static_cast<int>(rows);
     parallel_for_chunks(compute_, count, constraint_grain, count >= min_shared_constraints, [&](int first, int last, int) {
-        for (int k = first; k < last; ++k) constraint_force_[constraint_at(k)] = row_force(contacts_[constraint_at(k)], from);
+        for (int k = first; k < last; ++k) {
+            const std::size_t row = row_at(k);
+            row_force_[row] =
+                row < coupled_.size() ? row_force(coupled_[row], from) : row_force(outer_[row - coupled_.size()], from);
+        }
     });
 }
 
 void Multigrid::set_row_forces(const AlignedVector<float>& x) {
-    set_forces(x, contacts_.size(), [](int k) { return k; });
+    set_forces(x, row_force_.size(), [](int k) { return k; });
 }
 
-/// Sets those of constraints between cloths that are taken exactly.
-void Multigrid::set_between_forces(const AlignedVector<float>& x) {
-    set_forces(x, between_constraints_.size(), [this](int k) { return between_constraints_[k]; });
+/// Sets those of rows that are taken exactly.
+void Multigrid::set_exact_forces(const AlignedVector<float>& x) {
+    set_forces(x, exact_rows_.size(), [this](int k) { return exact_rows_[k]; });
 }
 
-/// value + factor sum w f over the first constraints of a vertex.
+/// value + factor times the forces of the first rows of a vertex.
 FloatVec Multigrid::add_rows(const Filtered& vertex, int rows, float factor, FloatVec value) const {
     for (int k = vertex.first_row; k < vertex.first_row + rows; ++k) {
-        value = sum(value, scaled(factor * constraint_ends_[k].weight, constraint_force_[constraint_ends_[k].row]));
+        const FloatVec &at = row_ends_[k].factor, &force = row_force_[row_ends_[k].row];
+        for (int axis = 0; axis < 3; ++axis) value[axis] += factor * at[axis] * force[axis];
     }
     return value;
 }
@@ -180,7 +196,7 @@ void Multigrid::begin(int k, Slices range) {
     place(k, levels_[k].x, range);
 }
 
-/// r = b - A x; constraint_force_ must be of x where contact between cloths is taken exactly.
+/// r = b - A x; row_force_ must be of x where rows are taken exactly.
 void Multigrid::set_residual(int k, Slices range) {
     Level& level = levels_[k];
     multiply_level(k, level.x, level.b.data(), level.r, range);
@@ -188,7 +204,7 @@ void Multigrid::set_residual(int k, Slices range) {
     const FloatVec3Arrays x = view(level.x, level), r = view(level.r, level);
     for_filtered(range, [&](const Filtered& vertex, int) {
         const FloatVec rest = difference(at(r, vertex.vertex), times(vertex.contact, at(x, vertex.vertex)));
-        set(r, vertex.vertex, vertex.between > 0 ? add_rows(vertex, vertex.between, -1.0f, rest) : rest);
+        set(r, vertex.vertex, vertex.exact > 0 ? add_rows(vertex, vertex.exact, -1.0f, rest) : rest);
     });
 }
 
@@ -199,7 +215,7 @@ void Multigrid::hand_down(int k, Slices range) {
     const FloatVec3Arrays r = view(level.r, level);
     if (k == 0) {
         for_filtered(range, [&](const Filtered& vertex, int) {
-            if (vertex.between == 0) set(r, vertex.vertex, times(vertex.filter, at(r, vertex.vertex)));
+            if (!sweeps_ || vertex.exact == 0) set(r, vertex.vertex, times(vertex.filter, at(r, vertex.vertex)));
         });
     }
     compute_.kernels->pack_float_points(r, level.handed.data(), range);
@@ -212,15 +228,15 @@ void Multigrid::sweep_residual() {
     const auto set_change = [&](const Filtered& vertex, int) {
         set(change, vertex.vertex, by_inverse(vertex.vertex, at(r, vertex.vertex)));
     };
-    for_between(set_change);
+    for_exact(set_change);
     for (const float factor : constraint_sweep_factors()) {
-        set_between_forces(change_);
-        for_between([&](const Filtered& vertex, int number) {
-            set(r, vertex.vertex, add_rows(vertex, vertex.between, -factor, at(r, vertex.vertex)));
+        set_exact_forces(change_);
+        for_exact([&](const Filtered& vertex, int number) {
+            set(r, vertex.vertex, add_rows(vertex, vertex.exact, -factor, at(r, vertex.vertex)));
             set_change(vertex, number);
         });
     }
-    for_between([&](const Filtered& vertex, int) {
+    for_exact([&](const Filtered& vertex, int) {
         const FloatVec filtered = times(vertex.filter, at(r, vertex.vertex));
         std::ranges::copy(filtered, &level.handed[4 * static_cast<std::size_t>(vertex.vertex)]);
     });
@@ -253,17 +269,17 @@ void Multigrid::prolong(int k, Slices range) {
 void Multigrid::sweep_change() {
     Level& level = levels_[0];
     const FloatVec3Arrays x = view(level.x, level), change = view(change_, level);
-    for_between([&](const Filtered& vertex, int number) {
+    for_exact([&](const Filtered& vertex, int number) {
         set(change, vertex.vertex, difference(at(x, vertex.vertex), before_[number]));
     });
     for (const float factor : constraint_sweep_factors()) {
-        set_between_forces(change_);
-        for_between([&](const Filtered& vertex, int) {
-            const FloatVec part = by_inverse(vertex.vertex, add_rows(vertex, vertex.between, factor, {}));
+        set_exact_forces(change_);
+        for_exact([&](const Filtered& vertex, int) {
+            const FloatVec part = by_inverse(vertex.vertex, add_rows(vertex, vertex.exact, factor, {}));
             set(change, vertex.vertex, difference(at(change, vertex.vertex), part));
         });
     }
-    for_between([&](const Filtered& vertex, int number) {
+    for_exact([&](const Filtered& vertex, int number) {
         set(x, vertex.vertex, sum(before_[number], at(change, vertex.vertex)));
         place_vertex(vertex.vertex);
     });
@@ -280,8 +296,8 @@ void Multigrid::correct(int k) {
     if (k + 1 == levels()) return;
     Level &level = levels_[k], &coarser = levels_[k + 1];
     const int min = k == 0 ? min_shared_slices : min_shared_coarse_slices;
-    const bool solves = k + 2 == levels() && bottom_size_ > 0, sweeps = k == 0 && !between_.empty();
-    if (sweeps) set_between_forces(level.x);
+    const bool solves = k + 2 == levels() && bottom_size_ > 0, exact = k == 0 && !exact_.empty(), sweeps = exact && sweeps_;
+    if (exact) set_exact_forces(level.x);
     for_chunks(
         compute_, level.slices, [&](Slices range) { hand_down(k, range); }, min);
     if (sweeps) sweep_residual();
@@ -301,9 +317,8 @@ void Multigrid::correct(int k) {
     }
     for_chunks(
         compute_, level.slices, [&](Slices range) { prolong(k, range); }, min);
-    if (!sweeps) return;
-    sweep_change();
-    set_between_forces(level.x);
+    if (sweeps) sweep_change();
+    if (exact) set_exact_forces(level.x);
 }
 
 void Multigrid::solve_bottom(Level& level) {

@@ -1,6 +1,7 @@
 #include "subset_system.h"
 
-#include "block_product.h"
+#include <algorithm>
+
 #include "matrix_entries.h"
 #include "tolerances.h"
 
@@ -36,19 +37,37 @@ void SubsetSystem::fill(const BlockMatrix& matrix, std::span<const int> vertices
         });
         start_.push_back(static_cast<int>(column_.size()));
     }
-    add_contacts(matrix);
+    add_coupled(matrix);
+    add_outer(matrix);
 }
 
-void SubsetSystem::add_contacts(const BlockMatrix& matrix) {
-    contacts_.clear();
-    for (const CoupledBlock& block : matrix.contacts) {
-        Contact contact{.vertex = {-1, -1, -1, -1}, .weight = block.weight, .k = block.k};
+void SubsetSystem::add_coupled(const BlockMatrix& matrix) {
+    coupled_.clear();
+    for (std::size_t number = 0; number < matrix.coupled.size(); ++number) {
+        CoupledBlock block = matrix.coupled[number];
         bool touches = false;
         for (int k = 0; k < 4 && block.vertex[k] >= 0; ++k) {
-            contact.vertex[k] = number_[block.vertex[k]];
-            touches = touches || contact.vertex[k] >= 0;
+            block.vertex[k] = number_[block.vertex[k]];
+            touches = touches || block.vertex[k] >= 0;
         }
-        if (touches) contacts_.push_back(contact);
+        if (touches) coupled_.push_back(block);
+    }
+}
+
+void SubsetSystem::add_outer(const BlockMatrix& matrix) {
+    outer_.clear();
+    const OuterBlocks& blocks = matrix.of_forces->outer;
+    for (int number = 0; number < blocks.size(); ++number) {
+        const OuterBlocks::Block block = blocks[number];
+        const auto count = std::ranges::count_if(block.vertex, [&](int v) { return number_[v] >= 0; });
+        if (count == 0) continue;
+        const OuterBlocks::NewBlock own = outer_.add(static_cast<int>(count));
+        std::size_t next = 0;
+        for (std::size_t k = 0; k < block.vertex.size(); ++k) {
+            if (number_[block.vertex[k]] < 0) continue;
+            own.vertex[next] = number_[block.vertex[k]];
+            own.gradient[next++] = block.gradient[k];
+        }
     }
 }
 
@@ -57,15 +76,21 @@ void SubsetSystem::multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y) co
         y[i] = block_times(diagonal_[i], x[i]);
         for (int e = start_[i]; e < start_[i + 1]; ++e) y[i] += block_[e] * x[column_[e]];
     }
-    for (const Contact& contact : contacts_) {
+    for (const CoupledBlock& block : coupled_) {
         Vec3 u = Vec3::Zero();
         for (int k = 0; k < 4; ++k) {
-            if (contact.vertex[k] >= 0) u += contact.weight[k] * x[contact.vertex[k]];
+            if (block.vertex[k] >= 0) u += block.weight[k] * x[block.vertex[k]];
         }
-        const Vec3 f = block_times(contact.k, u);
+        const Vec3 f = block_times(block.k, u);
         for (int k = 0; k < 4; ++k) {
-            if (contact.vertex[k] >= 0) y[contact.vertex[k]] += contact.weight[k] * f;
+            if (block.vertex[k] >= 0) y[block.vertex[k]] += block.weight[k] * f;
         }
+    }
+    for (int number = 0; number < outer_.size(); ++number) {
+        const OuterBlocks::Block block = outer_[number];
+        double along = 0.0;
+        for (std::size_t k = 0; k < block.vertex.size(); ++k) along += block.gradient[k].dot(x[block.vertex[k]]);
+        for (std::size_t k = 0; k < block.vertex.size(); ++k) y[block.vertex[k]] += along * block.gradient[k];
     }
 }
 

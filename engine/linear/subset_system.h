@@ -9,7 +9,7 @@
 namespace percale {
 
 /// The part of a step matrix that belongs to a few vertices while all others are held, gathered so that the cost of products is
-/// that of a small matrix. It leaves out pressure blocks.
+/// that of a small matrix. It leaves out loads.
 class SubsetSystem {
 public:
     /// Takes the rows and columns of these vertices, each of them free and named once, from a filled matrix.
@@ -20,14 +20,8 @@ public:
     int solve(const Vec3Arrays& b, double ratio, Vec3Arrays& x);
 
 private:
-    /// A contact block, its vertices by their number in the subset; -1: held or unused.
-    struct Contact {
-        std::array<int, 4> vertex;
-        std::array<double, 4> weight;
-        SymmetricBlock k;
-    };
-
-    void add_contacts(const BlockMatrix& matrix);
+    void add_coupled(const BlockMatrix& matrix);
+    void add_outer(const BlockMatrix& matrix);
     void multiply(const std::vector<Vec3>& x, std::vector<Vec3>& y) const;
     double precondition();
 
@@ -35,7 +29,8 @@ private:
     std::vector<int> start_, column_;     // blocks off the diagonal, row by row
     std::vector<Eigen::Matrix3d> block_;
     std::vector<SymmetricBlock> diagonal_, inverse_;
-    std::vector<Contact> contacts_;
+    std::vector<CoupledBlock> coupled_;  // vertices by their number in the subset; -1: held or unused
+    OuterBlocks outer_;                  // likewise, without those that are held
     std::vector<Vec3> x_, r_, z_, p_, q_;
 };
 

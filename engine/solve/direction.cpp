@@ -43,8 +43,8 @@ void fill_system(const StageEquations& equations, const TrialContacts* trial_con
     NewtonSpace& space = equations.space();
     const StagePoint& point = space.current;
     StageTimer timer(equations.times().setup);
-    space.solver.fill(point.forces.spring_terms, trial_contacts ? trial_contacts->blocks : point.contact.blocks);
-    space.solver.add_pressure_blocks(point.forces.pressure_blocks, point.positions);
+    space.solver.fill(point.forces.spring_terms, trial_contacts ? trial_contacts->blocks : point.contact.blocks,
+                      point.forces.blocks);
     set_each(stage.scene.compute, point.residual, point.residual, space.right_side, [](double r, double) { return 0.0 - r; });
     if (trial_contacts) trial_contacts->add_to(stage.scene.script.free, space.right_side);
     leave_settled(stage.scene.model, space);
@@ -80,7 +80,7 @@ Direction newton_direction(const StageEquations& equations, const SolveTarget& t
     fill_system(equations, trial_contacts);
     StageTimer timer(equations.times().solve);
     const ClothModel& model = stage.scene.model;
-    space.rigid_modes.find(stage.scene, space.bodies, trial_contacts ? trial_contacts->blocks : point.contact.blocks);
+    space.rigid_modes.find(stage.scene, space.bodies, space.solver.matrix.coupled, point.forces.blocks.outer);
     // The correction comes before the solve, too: only the deformation is then left to be solved, with its accuracy.
     space.rigid_modes.correct(model, point.residual, space.direction);
     set_net_limits(stage.scene, stage.base.h, space);

@@ -94,7 +94,7 @@ void set_subset_direction(const StageEquations& equations) {
     SubsetSpace& subsets = space.subsets;
     {
         StageTimer timer(equations.times().setup);
-        fill_matrix(current.forces.spring_terms, current.contact.blocks, space.solver.matrix);
+        fill_matrix(current.forces.spring_terms, current.contact.blocks, current.forces.blocks, space.solver.matrix);
         subsets.system.fill(space.solver.matrix, subsets.vertices);
     }
     StageTimer timer(equations.times().solve);
@@ -107,8 +107,7 @@ void set_subset_direction(const StageEquations& equations) {
 
 bool solve_subsets(StageEquations& equations, const TimeError& error) {
     NewtonSpace& space = equations.space();
-    if (!equations.arrived() || space.current.constraints.size() == 0 || !space.current.forces.pressure_blocks.empty())
-        return false;
+    if (!equations.arrived() || space.current.constraints.size() == 0 || !space.current.forces.blocks.loads.empty()) return false;
     const double sum = set_squares(equations, space.subsets.squares);
     if (!choose_vertices(sum, space.subsets)) return false;
     add_neighbours(equations.stage().scene, space.subsets);

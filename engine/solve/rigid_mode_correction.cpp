@@ -7,6 +7,19 @@
 namespace percale {
 namespace {
 
+/// Rounding of the sum of a block's parts that counts as 0, over the sum of their lengths.
+constexpr double zero_sum_ratio = 1e-9;
+
+bool resists_translation(const OuterBlocks::Block& block) {
+    Vec3 sum = Vec3::Zero();
+    double length = 0.0;
+    for (const Vec3& g : block.gradient) {
+        sum += g;
+        length += g.norm();
+    }
+    return sum.norm() > zero_sum_ratio * length;
+}
+
 /// Whether a body that is being solved is held by nothing.
 bool drifts(const StepScene& scene, const BodyStates& states, std::size_t number) {
     if (states.settled(number)) return false;
@@ -19,25 +32,35 @@ bool drifts(const StepScene& scene, const BodyStates& states, std::size_t number
 
 }  // namespace
 
-void RigidModeCorrection::find(const StepScene& scene, const BodyStates& states, std::span<const CoupledBlock> blocks) {
+void RigidModeCorrection::find(const StepScene& scene, const BodyStates& states, const CoupledBlocks& coupled,
+                               const OuterBlocks& outer) {
     const std::vector<Body>& bodies = scene.model.bodies;
     const int count = static_cast<int>(bodies.size());
     group_.resize(bodies.size());
     known_ = 0;
     for (int b = 0; b < count; ++b) {
-        group_[b] = !drifts(scene, states, b) ? held : scene.plan.wind ? resisted : b;
+        group_[b] = drifts(scene, states, b) ? b : held;
         known_ += group_[b] >= 0;
     }
-    for (const CoupledBlock& block : blocks) {
-        if (known_ == 0) break;
-        const int first = body_of(bodies, block.vertex[0]);
-        if (!between_cloths(block)) resist(first);
-        for (int k = 1; k < 4 && block.vertex[k] >= 0; ++k) join(first, body_of(bodies, block.vertex[k]));
+    for (std::size_t number = 0; number < coupled.size() && known_ > 0; ++number) {
+        const CoupledBlock& block = coupled[number];
+        if (!between_cloths(block)) resist(body_of(bodies, block.vertex[0]));
+        join_all(bodies, {block.vertex.begin(), std::ranges::find(block.vertex, -1)});
+    }
+    for (int number = 0; number < outer.size() && known_ > 0; ++number) {
+        const OuterBlocks::Block block = outer[number];
+        if (resists_translation(block)) resist(body_of(bodies, block.vertex[0]));
+        join_all(bodies, block.vertex);
     }
     members_.assign(bodies.size(), 0);
     for (const int group : group_) {
         if (group >= 0) ++members_[group];
     }
+}
+
+void RigidModeCorrection::join_all(const std::vector<Body>& bodies, std::span<const int> vertices) {
+    const int first = body_of(bodies, vertices[0]);
+    for (const int vertex : vertices.subspan(1)) join(first, body_of(bodies, vertex));
 }
 
 /// Something resists the translation of a body, and thus that of its group.

@@ -15,11 +15,11 @@ namespace percale {
 ///     sum m dv = -sum r.
 ///
 /// It is not known for bodies in contact with an obstacle or with cloth that is pinned or settled, nor in wind; for bodies in
-/// contact with each other only the common one is known.
+/// contact with each other only the common one is known. A block resists where it acts on a common translation.
 class RigidModeCorrection {
 public:
-    /// Sorts the bodies into groups; `blocks` are those of contact in the system.
-    void find(const StepScene& scene, const BodyStates& states, std::span<const CoupledBlock> blocks);
+    /// Sorts the bodies into groups; the blocks are those of the system.
+    void find(const StepScene& scene, const BodyStates& states, const CoupledBlocks& coupled, const OuterBlocks& outer);
 
     /// Adds to the direction dv, m/s, what it lacks of each known translation. r is the residual, kg m/s.
     void correct(const ClothModel& model, const Vec3Arrays& residual, Vec3Arrays& direction);
@@ -35,6 +35,7 @@ public:
 private:
     static constexpr int held = -1, resisted = -2;
 
+    void join_all(const std::vector<Body>& bodies, std::span<const int> vertices);
     void resist(int body);
     void join(int first, int second);
     void replace(int group, int by);

@@ -126,7 +126,6 @@ void StageEquations::evaluate(StagePoint& point) {
                      .dt = stage_.base.h,
                      .with_matrix = true},
                     point.forces);
-    if (stage_.wind && stage_.wind->blows) set_vertex_blocks(point.forces.wind.blocks, point.contact);
     if (scene.plan.contacts) {
         add_contact(point);
     } else {  // terms of a scene that had contact before
@@ -204,14 +203,6 @@ void StageEquations::set_residual(StagePoint& point) const {
         return sum_terms(first, last - first, [&](int i) { return free[i] * mass[i] * square_between(velocity, start, i); });
     });
     point.objective = 0.5 * distance + point.forces.potential;
-}
-
-void set_vertex_blocks(const std::vector<SymmetricBlock>& blocks, ContactTerms& contact) {
-    contact.others = blocks.size();
-    contact.blocks.resize(contact.others);
-    for (std::size_t i = 0; i < contact.others; ++i) {
-        contact.blocks[i] = {.vertex = {static_cast<int>(i), -1, -1, -1}, .weight = {1.0, 0.0, 0.0, 0.0}, .k = blocks[i]};
-    }
 }
 
 }  // namespace percale

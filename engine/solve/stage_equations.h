@@ -53,7 +53,4 @@ private:
     double largest_stiffness_ = 0.0;  // N/m, of contact
 };
 
-/// Puts blocks of single vertices, kg, in front of those of contact, which keeps them there (ContactTerms::others).
-void set_vertex_blocks(const std::vector<SymmetricBlock>& blocks, ContactTerms& contact);
-
 }  // namespace percale

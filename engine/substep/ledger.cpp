@@ -67,7 +67,7 @@ public:
     double wind_work(const ForcePlace& place) {
         if (!set_wind_at(scene_, place.air, work_)) return 0.0;
         work_.forces.resize(scene_.model.vertex_count());
-        add_wind(scene_.model, work_.wind, place.velocities, dt_, work_.forces, work_.explicit_space.forces.wind);
+        add_wind(scene_.model, work_.wind, place.velocities, dt_, work_.forces, nullptr);
         return sum_terms(0, scene_.model.vertex_count(),
                          [&](int i) { return work_.forces.at(i).dot(end_.positions.at(i) - start_.positions.at(i)); });
     }

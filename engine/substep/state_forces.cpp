@@ -7,7 +7,7 @@
 namespace percale {
 namespace {
 
-double wind_power(const Workspace& work) { return work.explicit_space.forces.wind.power; }
+double wind_power(const Workspace& work) { return work.explicit_space.forces.wind_power; }
 
 ForcePlace place_of(const ClothState& state, std::span<const double> rest_length) {
     return {state.positions, state.velocities, state.positions, rest_length};

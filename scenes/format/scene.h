@@ -99,7 +99,7 @@ struct ObstacleSpec {
     double unit = 1.0;
     std::string part;
     double weld = 0.0;  // m
-    double friction = 0.3;
+    double friction = default_friction;
     double restitution = 0.0;
     Pose pose;
     std::vector<Keyframe> motion;  // ascending times

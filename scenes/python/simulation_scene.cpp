@@ -72,7 +72,7 @@ void bind_bodies(SimulationClass& simulation) {
                 }
                 return add_obstacle(self, mesh, pose, name, settings);
             },
-            py::arg("mesh"), py::arg("pose") = py::none(), py::arg("friction") = 0.3, py::arg("name") = "obstacle",
+            py::arg("mesh"), py::arg("pose") = py::none(), py::arg("friction") = default_friction, py::arg("name") = "obstacle",
             "Adds a body that cloth cannot enter and returns its ObstacleId. friction: Coulomb coefficient, 0 ... 10;\n"
             "restitution: 0 ... 1; deforming: whether deform_obstacle may move its vertices; yields: whether its surface gives\n"
             "way where it leaves cloth no room.")

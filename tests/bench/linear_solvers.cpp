@@ -89,7 +89,7 @@ public:
         for (int i = 0; i < model.vertex_count(); ++i) right.set(i, free[i] * dt * forces.total.at(i));
         percale::set_pattern(compute, model.adjacency, model.mass, matrix);
         matrix.free = free;
-        percale::fill_matrix(forces.spring_terms, {}, matrix);
+        percale::fill_matrix(forces.spring_terms, {}, no_blocks, matrix);
     }
     System(const System&) = delete;
     System& operator=(const System&) = delete;
@@ -209,7 +209,7 @@ Cost measure_ours(const System& system, percale::LinearSolver choice) {
     percale::StepSolver solver;
     const auto fill = [&] {
         solver.start_stage();
-        solver.fill(system.forces.spring_terms, {});
+        solver.fill(system.forces.spring_terms, {}, system.forces.blocks);
     };
     Cost cost{.solver = choice == percale::LinearSolver::cg ? "block Jacobi" : "multigrid"};
     const double first = 1e3 * percale::test::min_seconds(1, {[&] {

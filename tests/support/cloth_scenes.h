@@ -22,6 +22,7 @@ namespace percale::test {
 
 /// The kernels and threads of tests: the best kernels of this machine.
 inline const Compute compute;
+inline const ForceBlocks no_blocks;
 
 /// All schemes, in the order of the enum.
 inline constexpr std::array all_schemes = {Scheme::forward_euler,  Scheme::symplectic_euler,  Scheme::midpoint,  Scheme::rk4,

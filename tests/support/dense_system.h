@@ -39,6 +39,7 @@ struct RandomSystem {
     Vec3Arrays positions, velocities;
     SpringTerms terms;
     std::vector<CoupledBlock> contacts;
+    ForceBlocks blocks;
     BlockMatrix matrix;
 
     explicit RandomSystem(unsigned seed, int count) : random(seed) {
@@ -49,10 +50,22 @@ struct RandomSystem {
         for (int i = 0; i < count / 2; ++i) contacts.push_back(random_contact(count));
         set_pattern(compute, model.adjacency, model.mass, matrix);
         for (int i = 0; i < count / 5; ++i) matrix.free[random.index(count)] = 0.0;
-        fill_matrix(terms, contacts, matrix);
+        fill();
     }
     RandomSystem(const RandomSystem&) = delete;
     RandomSystem& operator=(const RandomSystem&) = delete;
+
+    void fill() { fill_matrix(terms, contacts, blocks, matrix); }
+
+    /// An outer block of vertices that follow each other.
+    void add_outer(int vertices, double size) {
+        const int first = random.index(model.vertex_count());
+        const OuterBlocks::NewBlock block = blocks.outer.add(vertices);
+        for (int k = 0; k < vertices; ++k) {
+            block.vertex[k] = (first + k) % model.vertex_count();
+            block.gradient[k] = random.point(size);
+        }
+    }
 
     void evaluate() {
         StepSprings springs;
@@ -119,6 +132,13 @@ struct RandomSystem {
                 for (int l = 0; l < 4 && contact.vertex[l] >= 0; ++l) {
                     add(contact.vertex[k], contact.vertex[l], contact.weight[k] * contact.weight[l] * full_block(contact.k));
                 }
+            }
+        }
+        for (int number = 0; number < blocks.outer.size(); ++number) {
+            const OuterBlocks::Block block = blocks.outer[number];
+            for (std::size_t k = 0; k < block.vertex.size(); ++k) {
+                for (std::size_t l = 0; l < block.vertex.size(); ++l)
+                    add(block.vertex[k], block.vertex[l], block.gradient[k] * block.gradient[l].transpose());
             }
         }
         return result;

@@ -18,15 +18,17 @@ enum class Membrane {
     van_gelder,        // plain springs on edges: isotropic, 1.2 times too stiff on grids
 };
 
+constexpr double default_friction = 0.3;  // Coulomb coefficient of cloth on obstacles and on cloth
+
 /// The material of a cloth: raw springs, or moduli if stretch_stiffness is set. options.h has the range and a sentence for every
 /// field.
 struct Fabric {
-    double area_density = 0.2;     // kg/m^2
-    double thickness = 0.005;      // m, gap kept from obstacles, measured from the middle surface
-    bool self_contact = false;     // it meets itself and all other cloth with self_contact
-    double friction = 0.3;         // Coulomb coefficient against such cloth
-    SpringConstants springs = {};  // N/m; unused with stretch_stiffness
-    double spring_damping = 0.1;   // N s/m of each spring, along the spring only; unused with damping_time
+    double area_density = 0.2;           // kg/m^2
+    double thickness = 0.005;            // m, gap kept from obstacles, measured from the middle surface
+    bool self_contact = false;           // it meets itself and all other cloth with self_contact
+    double friction = default_friction;  // Coulomb coefficient against such cloth
+    SpringConstants springs = {};        // N/m; unused with stretch_stiffness
+    double spring_damping = 0.1;         // N s/m of each spring, along the spring only; unused with damping_time
 
     std::optional<double> damping_time = {};                      // s, damping of each spring over its stiffness
     std::optional<std::array<double, 2>> stretch_stiffness = {};  // N/m, warp and weft

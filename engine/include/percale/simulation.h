@@ -36,10 +36,10 @@ struct SeamId {
 enum class TeleportVelocities { keep, clear };
 
 struct ObstacleSettings {
-    double friction = 0.3;          // Coulomb coefficient against cloth, 0 ... 10
-    double restitution = 0.0;       // fraction of its normal speed that cloth keeps when it bounces off, 0 ... 1
-    std::string name = "obstacle";  // for messages
-    bool deforming = false;         // its vertices may move one by one; costs more contacts and more time
+    double friction = default_friction;  // Coulomb coefficient against cloth, 0 ... 10
+    double restitution = 0.0;            // fraction of its normal speed that cloth keeps when it bounces off, 0 ... 1
+    std::string name = "obstacle";       // for messages
+    bool deforming = false;              // its vertices may move one by one; costs more contacts and more time
     /// A compliant obstacle if true: where it leaves cloth less room than 1.2 thicknesses, between it and what is on the other
     /// side, its surface gives way, as flesh does, and goes back as soon as there is room; StepReport::pinched reports it. It is
     /// then deforming. If false, the step fails there. Its mesh needs edges not much longer than a few thicknesses.

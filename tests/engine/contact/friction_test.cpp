@@ -81,15 +81,6 @@ TEST_CASE("A stick anchor is found by vertex and obstacle and adds to the slip")
     }
 }
 
-TEST_CASE("Friction is a spring up to the stick threshold and at its limit beyond, against the slip") {
-    const Vec3 along = Vec3(3, 0, 4) / 5.0, friction_limit(0, 2, 0);
-    for (const double ratio : {0.0, 0.1, 0.99, 1.0, 1.01, 300.0}) {
-        const Vec3 force = friction_force(friction_contact_of(friction_limit, 1e-4, ratio * 1e-4 * along));
-        CAPTURE(ratio);
-        CHECK((force + 2.0 * std::min(ratio, 1.0) * along).norm() < 1e-12);
-    }
-}
-
 TEST_CASE("There is one friction contact for each vertex and obstacle, found again until it is cleared") {
     FrictionContacts friction_contacts;
     friction_contacts.clear(4);
@@ -158,13 +149,13 @@ TEST_CASE("Anchors of friction between cloths are found again by constraint, and
         const ClothFrictionContact before = cloth_friction_contacts[constraint],
                                    after = cloth_friction_contact(next, constraints, constraint, 2.0 * normal, end);
         const double stick_threshold = 0.01 * h, length = before.slip.norm();
-        CHECK(before.stick_threshold == Approx(stick_threshold));
+        CHECK(before.law.stick_threshold == Approx(stick_threshold));
         CHECK(std::abs(before.slip.dot(constraints.direction[constraint])) < 1e-15);
         CHECK((before.slip - before.moved).norm() == 0.0);
-        CHECK(friction_force(before).norm() == Approx(mu * normal * std::min(1.0, length / stick_threshold)));
+        CHECK(before.law.force(before.slip).norm() == Approx(mu * normal * std::min(1.0, length / stick_threshold)));
         CHECK((after.slip - std::min(1.0, stick_threshold / length) * before.slip).norm() < 1e-12 * stick_threshold);
         CHECK(after.moved.norm() == 0.0);
-        CHECK(after.friction_limit == Approx(2.0 * mu * normal));
+        CHECK(after.law.limit == Approx(2.0 * mu * normal));
         slid += length > stick_threshold;
     }
     CHECK((slid > 5 && slid < 35));

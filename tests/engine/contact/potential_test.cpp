@@ -41,6 +41,7 @@ TEST_CASE("Slope and curvature are the derivatives of the contact potential") {
         CHECK((behind.slope - ahead.slope) / (2.0 * step) == Approx(p.curvature).epsilon(1e-7));
         CHECK(p.slope > 0.0);
         CHECK(p.curvature > 0.0);
+        CHECK(stiffness_of_curvature(p.curvature, d, h) == Approx(stiffness).epsilon(1e-14));
     }
 }
 

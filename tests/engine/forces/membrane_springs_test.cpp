@@ -173,7 +173,7 @@ TEST_CASE("Diagonal blocks are those of the matrix, and factorisation, multigrid
         solver.set_model(compute, sheet.model, which);
         solver.matrix.free[0] = solver.matrix.free[12] = 0.0;
         solver.start_stage();
-        solver.fill(sheet.terms, {});
+        solver.fill(sheet.terms, {}, no_blocks);
         for (int i = 0; i < count; ++i) {
             std::array<double, 6> block;
             for (int k = 0; k < 6; ++k) block[k] = solver.matrix.diagonal[k][i];

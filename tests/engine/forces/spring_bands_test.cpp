@@ -112,7 +112,7 @@ Product product(const Compute& run, const Sheet& sheet, const Evaluated& evaluat
     Product result;
     set_pattern(run, sheet.adjacency, sheet.model.mass, result.matrix);
     for (int i = 0; i < sheet.model.vertex_count(); i += 7) result.matrix.free[i] = 0.0;
-    fill_matrix(evaluated.terms, {}, result.matrix);
+    fill_matrix(evaluated.terms, {}, no_blocks, result.matrix);
     AlignedVector<double> points;
     result.y.resize(sheet.model.vertex_count());
     result.square = multiply(result.matrix, x, points, result.y);

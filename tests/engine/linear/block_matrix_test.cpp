@@ -11,6 +11,8 @@ namespace percale::test::block_matrix_test {
 TEST_CASE("The matrix product is that of the assembled dense matrix on the free rows, 0 on the others") {
     for (const int vertices : {2, 8, 13, 40, 90}) {
         RandomSystem system(vertices + 100u, vertices);
+        for (const int size : {1, 2, vertices / 2, vertices}) system.add_outer(size, 3.0);
+        system.fill();
         const Eigen::VectorXd x = system.random_vector();
         AlignedVector<double> points;
         Vec3Arrays y;
@@ -45,7 +47,7 @@ TEST_CASE("The preconditioner inverts the diagonal blocks, every contact constra
             blocks[contact.vertex[k]] += contact.weight[k] * full_block(contact.k);
         }
     }
-    fill_matrix(system.terms, contacts, system.matrix);
+    fill_matrix(system.terms, contacts, no_blocks, system.matrix);
     const Eigen::VectorXd r = system.random_vector();
     Vec3Arrays z;
     z.resize(21);
@@ -87,16 +89,38 @@ TEST_CASE("A new pattern starts free and without contacts") {
     set_pattern(compute, model.adjacency, model.mass, matrix);
     REQUIRE(matrix.padded() == 16);
     for (int i = 0; i < 16; ++i) CHECK(matrix.free[i] == (i < 9 ? 1.0 : 0.0));
-    CHECK(matrix.contacts.empty());
-    CHECK(matrix.contacts_by_vertex.empty());
+    CHECK(matrix.coupled.size() == 0);
+    CHECK(matrix.by_vertex.empty());
+}
+
+TEST_CASE("The diagonal holds an upper bound of local outer blocks, and nothing of wide ones") {
+    RandomSystem system(9, 30);
+    std::fill(system.matrix.free.begin(), system.matrix.free.begin() + 30, 1.0);
+    for (const int size : {1, 3, 4, 12, 13, 30}) system.add_outer(size, 3.0);
+    system.fill();
+    CHECK(system.matrix.local_outer == std::vector{0, 1, 2, 3});
+    CHECK(system.matrix.wide_outer == std::vector{4, 5});
+    for (int trial = 0; trial < 200; ++trial) {
+        const Eigen::VectorXd u = system.random_vector();
+        double energy = 0.0, bound = 0.0;
+        for (const int number : system.matrix.local_outer) {
+            const double along = dot(system.blocks.outer[number], from_dense(u));
+            energy += along * along;
+        }
+        for (const VertexBlocks& blocks : system.matrix.by_vertex) {
+            const Vec3 part = u.segment<3>(3 * blocks.vertex);
+            bound += part.dot(full_block(blocks.outer) * part);
+        }
+        CHECK(energy <= bound * (1.0 + 1e-12));
+    }
 }
 
 TEST_CASE("Refilling the matrix leaves nothing of what was there") {
     RandomSystem system(4, 19), other(5, 19);
     BlockMatrix refilled = system.matrix;
-    fill_matrix(system.terms, other.contacts, refilled);
-    fill_matrix(system.terms, {}, refilled);
-    fill_matrix(system.terms, system.contacts, refilled);
+    fill_matrix(system.terms, other.contacts, no_blocks, refilled);
+    fill_matrix(system.terms, {}, no_blocks, refilled);
+    fill_matrix(system.terms, system.contacts, no_blocks, refilled);
     const Vec3Arrays x = from_dense(system.random_vector());
     AlignedVector<double> points;
     Vec3Arrays once, again;
@@ -111,7 +135,7 @@ TEST_CASE("A constraint between cloths enters the product exactly and the diagon
     const CoupledBlock row{.vertex = {1, 20, 7, 13}, .weight = {1.0, -0.2, -0.5, -0.3}, .k = {5.0, 1.0, -0.5, 4.0, 0.3, 6.0}};
     std::fill(system.matrix.free.begin(), system.matrix.free.begin() + 24, 1.0);
     system.contacts = {row};
-    fill_matrix(system.terms, system.contacts, system.matrix);
+    fill_matrix(system.terms, system.contacts, no_blocks, system.matrix);
     const Eigen::VectorXd x = system.random_vector();
     AlignedVector<double> points;
     Vec3Arrays y;
@@ -119,15 +143,15 @@ TEST_CASE("A constraint between cloths enters the product exactly and the diagon
     multiply(system.matrix, from_dense(x), points, y);
     const Eigen::VectorXd expected = system.dense() * x;
     CHECK((to_dense(y, 24) - expected).norm() <= 1e-13 * expected.norm());
-    REQUIRE(system.matrix.contacts_by_vertex.size() == 4);
+    REQUIRE(system.matrix.by_vertex.size() == 4);
     for (int trial = 0; trial < 200; ++trial) {
         const Eigen::VectorXd u = system.random_vector();
         Vec3 apart = Vec3::Zero();
         for (int k = 0; k < 4; ++k) apart += row.weight[k] * u.segment<3>(3 * row.vertex[k]);
         double bound = 0.0;
-        for (const VertexContact& contact : system.matrix.contacts_by_vertex) {
-            const Vec3 part = u.segment<3>(3 * contact.vertex);
-            bound += part.dot(full_block(contact.k) * part);
+        for (const VertexBlocks& blocks : system.matrix.by_vertex) {
+            const Vec3 part = u.segment<3>(3 * blocks.vertex);
+            bound += part.dot(full_block(blocks.coupled) * part);
         }
         CHECK(apart.dot(full_block(row.k) * apart) <= bound * (1.0 + 1e-12));
     }

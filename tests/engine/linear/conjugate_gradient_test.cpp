@@ -51,7 +51,7 @@ TEST_CASE("A system that the preconditioner inverts takes one iteration") {
         block.vertex = {block.vertex[0], -1, -1, -1};
         block.weight = {1.0, 0.0, 0.0, 0.0};
     }
-    fill_matrix(system.terms, system.contacts, system.matrix);
+    fill_matrix(system.terms, system.contacts, no_blocks, system.matrix);
     const Eigen::VectorXd b = system.random_vector(), start = system.prescribed_values();
     // The inverses are held in single precision; their rounding is corrected in the second iteration.
     const Eigen::VectorXd expected = system.solve_dense(b, start);

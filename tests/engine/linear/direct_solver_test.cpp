@@ -1,5 +1,6 @@
 #include "engine/linear/direct_solver.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "tests/support/catch.h"
@@ -23,6 +24,8 @@ void check_against_dense(DirectSolver& solver, RandomSystem& system) {
 TEST_CASE("The direct solver agrees with a dense factorisation, contact included, prescribed vertices kept") {
     for (const int vertices : {2, 9, 25, 60}) {
         RandomSystem system(static_cast<unsigned>(vertices) + 200u, vertices);
+        for (const int size : {1, 2, std::min(vertices, 12)}) system.add_outer(size, 3.0);
+        system.fill();
         DirectSolver solver;
         CAPTURE(vertices);
         check_against_dense(solver, system);
@@ -35,13 +38,13 @@ TEST_CASE("One direct solver follows changes of values, contacts, pins and size"
     check_against_dense(solver, system);
     system.positions = to_vec3_arrays(random_points(system.random, 40, 0.7));
     system.evaluate();
-    fill_matrix(system.terms, system.contacts, system.matrix);
+    fill_matrix(system.terms, system.contacts, no_blocks, system.matrix);
     check_against_dense(solver, system);
     check_against_dense(solver, other);
     system.contacts.push_back(system.random_contact(40));
     system.contacts.push_back(system.random_contact(40));
     system.matrix.free[17] = 0.0;
-    fill_matrix(system.terms, system.contacts, system.matrix);
+    fill_matrix(system.terms, system.contacts, no_blocks, system.matrix);
     check_against_dense(solver, system);
     DirectSolver moved = std::move(solver);
     check_against_dense(moved, system);
@@ -52,7 +55,7 @@ TEST_CASE("A matrix that is not positive definite is refused") {
     system.matrix.free[5] = 1.0;
     system.contacts.push_back(
         {.vertex = {5, -1, -1, -1}, .weight = {1.0, 0.0, 0.0, 0.0}, .k = {-1e6, 0.0, 0.0, -1e6, 0.0, -1e6}});
-    fill_matrix(system.terms, system.contacts, system.matrix);
+    fill_matrix(system.terms, system.contacts, no_blocks, system.matrix);
     DirectSolver solver;
     Vec3Arrays x = from_dense(Eigen::VectorXd::Zero(36));
     CHECK_FALSE(solver.solve(system.matrix, from_dense(system.random_vector()), x));
@@ -61,7 +64,7 @@ TEST_CASE("A matrix that is not positive definite is refused") {
 TEST_CASE("With every vertex prescribed there is nothing to solve") {
     RandomSystem system(213, 10);
     std::fill(system.matrix.free.begin(), system.matrix.free.end(), 0.0);
-    fill_matrix(system.terms, system.contacts, system.matrix);
+    fill_matrix(system.terms, system.contacts, no_blocks, system.matrix);
     const Eigen::VectorXd start = system.random_vector();
     Vec3Arrays x = from_dense(start);
     DirectSolver solver;

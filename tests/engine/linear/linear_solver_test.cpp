@@ -20,7 +20,7 @@ struct Prepared {
     void prepare(const SheetSystem& sheet, LinearSolver wish) {
         solver.set_model(compute, sheet.model, wish);
         solver.matrix.free = sheet.matrix.free;
-        solver.fill(sheet.terms, sheet.contacts);
+        solver.fill(sheet.terms, sheet.contacts, sheet.blocks);
     }
     SolveReport solve(const SheetSystem& sheet, double tolerance, Vec3Arrays& x) {
         x.resize(sheet.count());
@@ -34,6 +34,7 @@ TEST_CASE("Every choice solves the same system to the same answer") {
     SheetSystem sheet(1, 21, 0.4);
     sheet.pin_share(0.05);
     sheet.add_contacts(0.3, 0.1, 100.0);
+    if (GENERATE(false, true)) sheet.hold_areas(10.0);
     Vec3Arrays exact;
     Prepared direct(sheet, LinearSolver::direct);
     CHECK(direct.solve(sheet, 0.0, exact).converged);
@@ -46,7 +47,7 @@ TEST_CASE("Every choice solves the same system to the same answer") {
             CHECK(report.converged);
             CHECK(report.iterations >= 1);
             CHECK(sheet.energy_norm(difference(x, exact)) <= 1e-7 * sheet.energy_norm(exact));
-            prepared.solver.fill(sheet.terms, sheet.contacts);
+            prepared.solver.fill(sheet.terms, sheet.contacts, sheet.blocks);
         }
     }
 }
@@ -58,7 +59,7 @@ TEST_CASE("A choice that was asked for stays") {
         Vec3Arrays x;
         for (int solves = 0; solves < 2; ++solves) {
             prepared.solve(sheet, 1e-12, x);
-            prepared.solver.fill(sheet.terms, {});
+            prepared.solver.fill(sheet.terms, {}, no_blocks);
             CHECK(prepared.solver.in_use() == choice);
         }
     }
@@ -83,7 +84,7 @@ TEST_CASE("The automatic choice changes to multigrid in the midst of a dear solv
     CHECK(dear.iterations < dearest.iterations);
     CHECK(sheet.energy_norm(difference(x, by_jacobi)) <= 1e-4 * sheet.energy_norm(x));
     CHECK(prepared.solver.in_use() == LinearSolver::multigrid);
-    prepared.solver.fill(sheet.terms, {});
+    prepared.solver.fill(sheet.terms, {}, no_blocks);
     const SolveReport cheap = prepared.solve(sheet, 1e-6, x);
     CHECK(cheap.converged);
     CHECK(2 * cheap.iterations < dear.iterations);
@@ -220,7 +221,7 @@ TEST_CASE("With coarser levels kept from another state the answer is the same") 
         kept.solve(first, 1e-6, x);
         fresh.solve(later, 1e-10, expected);
         for (int solves = 0; solves < 4; ++solves) {
-            kept.solver.fill(later.terms, later.contacts);
+            kept.solver.fill(later.terms, later.contacts, no_blocks);
             const SolveReport report = kept.solve(later, 1e-10, x);
             CAPTURE(side, solves, report.iterations);
             CHECK(report.converged);
@@ -236,7 +237,7 @@ TEST_CASE("A new part of a step starts with coarser levels of its own matrix") {
     Vec3Arrays x, expected;
     reused.solve(first, 1e-6, x);
     reused.solver.start_stage();
-    reused.solver.fill(later.terms, later.contacts);
+    reused.solver.fill(later.terms, later.contacts, no_blocks);
     CHECK(reused.solve(later, 1e-6, x).iterations == fresh.solve(later, 1e-6, expected).iterations);
     CHECK(same_bits(x, expected));
 }
@@ -262,8 +263,7 @@ struct FilledBall {
                              .with_matrix = true},
                             forces);
         system.pin_share(0.1);
-        system.matrix.pressure_blocks = forces.pressure_blocks;
-        system.matrix.positions = &positions;
+        system.matrix.of_forces = &forces.blocks;
     }
 
     /// The motion of prescribed vertices, 0 at the others.
@@ -285,7 +285,7 @@ struct FilledBall {
 
 }  // namespace
 
-TEST_CASE("Every choice takes pressure blocks into account, beside pins that move") {
+TEST_CASE("Every choice takes gas into account, beside pins that move") {
     FilledBall ball;
     const Vec3Arrays pins = ball.moving_pins();
     const double before = ball.system.residual(ball.system.right, pins);
@@ -294,8 +294,7 @@ TEST_CASE("Every choice takes pressure blocks into account, beside pins that mov
         solver.set_model(compute, ball.system.model, choice);
         solver.matrix.free = ball.system.matrix.free;
         for (int solves = 0; solves < 2; ++solves) {
-            solver.fill(ball.system.terms, {});
-            solver.add_pressure_blocks(ball.forces.pressure_blocks, ball.positions);
+            solver.fill(ball.system.terms, {}, ball.forces.blocks);
             Vec3Arrays x = pins;
             const SolveReport report = solver.solve(ball.system.right, {.relative_residual = 1e-8}, x);
             CAPTURE(static_cast<int>(choice), report.iterations);
@@ -305,15 +304,57 @@ TEST_CASE("Every choice takes pressure blocks into account, beside pins that mov
     }
 }
 
-TEST_CASE("Where pressure blocks leave no positive definite matrix, the answer still leads downhill") {
+TEST_CASE("A wide outer block costs no iterations, however stiff it is") {
     FilledBall ball;
-    ball.forces.pressure_blocks[0].load = 1e3;  // far beyond what tension holds
+    ball.forces.blocks.loads.clear();
+    for (const LinearSolver choice : {LinearSolver::cg, LinearSolver::multigrid, LinearSolver::direct}) {
+        std::vector<int> iterations;
+        for (const double factor : {0.0, 1.0, 1e3}) {
+            const OuterBlocks::Block from = ball.forces.blocks.outer[0];
+            ForceBlocks blocks;
+            const OuterBlocks::NewBlock to = blocks.outer.add(static_cast<int>(from.vertex.size()));
+            std::ranges::copy(from.vertex, to.vertex.begin());
+            std::ranges::transform(from.gradient, to.gradient.begin(), [=](const Vec3& g) { return Vec3(factor * g); });
+            StepSolver solver;
+            solver.set_model(compute, ball.system.model, choice);
+            solver.matrix.free = ball.system.matrix.free;
+            solver.fill(ball.system.terms, {}, blocks);
+            Vec3Arrays x = ball.system.zeros();
+            iterations.push_back(solver.solve(ball.system.right, {.relative_residual = 1e-6}, x).iterations);
+        }
+        CAPTURE(static_cast<int>(choice), iterations);
+        CHECK(iterations[1] <= iterations[0] + 1);
+        CHECK(iterations[2] <= iterations[0] + 1);
+    }
+}
+
+TEST_CASE("Local outer blocks cost few iterations") {
+    for (const LinearSolver choice : {LinearSolver::cg, LinearSolver::multigrid}) {
+        std::vector<int> iterations;
+        for (const double factor : {0.0, 1.0, 10.0}) {
+            SheetSystem sheet(3, 33, 0.3);
+            if (factor > 0.0) sheet.hold_areas(factor);
+            Prepared prepared(sheet, choice);
+            Vec3Arrays x;
+            iterations.push_back(prepared.solve(sheet, 1e-6, x).iterations);
+        }
+        CAPTURE(static_cast<int>(choice), iterations);
+        CHECK(iterations[1] <= 2 * iterations[0]);
+        CHECK(iterations[2] <= 4 * iterations[0]);
+    }
+}
+
+TEST_CASE("Where loads leave no positive definite matrix, the answer still leads downhill") {
+    FilledBall ball;
+    for (LoadTriangle& load : ball.forces.blocks.loads) {  // far beyond what tension holds
+        load.first *= 1e5;
+        load.second *= 1e5;
+    }
     for (const LinearSolver choice : {LinearSolver::cg, LinearSolver::multigrid, LinearSolver::direct}) {
         StepSolver solver;
         solver.set_model(compute, ball.system.model, choice);
         solver.matrix.free = ball.system.matrix.free;
-        solver.fill(ball.system.terms, {});
-        solver.add_pressure_blocks(ball.forces.pressure_blocks, ball.positions);
+        solver.fill(ball.system.terms, {}, ball.forces.blocks);
         Vec3Arrays x = ball.system.zeros();
         CHECK_FALSE(solver.solve(ball.system.right, {.relative_residual = 1e-8}, x).converged);
         CHECK(dot(compute, ball.system.right, x) > 0.0);

@@ -45,9 +45,10 @@ Cycled cycled(const SheetSystem& sheet, const Compute& on, const Vec3Arrays& r) 
 
 }  // namespace
 
-TEST_CASE("Constraints that share vertices act on each as the exact matrix does") {
+TEST_CASE("Constraints that share vertices, and outer blocks, act on each as the exact matrix does") {
     SheetSystem sheet(5, 33, 0.4);
     sheet.pin_share(0.1);
+    sheet.hold_areas(5.0);
     contact_by_constraints(sheet, 700);
     Multigrid multigrid(compute, sheet.model.adjacency, sheet.model.rest);
     multigrid.fill(sheet.matrix, Multigrid::Coarser::filled);
@@ -68,6 +69,7 @@ TEST_CASE("Cycles, products and solves have the same bits for any number of thre
     const bool itself = GENERATE(false, true);
     SheetSystem sheet(6, 97, 0.2);
     sheet.pin_share(0.02);
+    if (itself) sheet.hold_areas(5.0);
     contact_by_constraints(sheet, 1500);
     if (itself) sheet.add_self_contacts(1500, 3.0);
     const Vec3Arrays r = sheet.random_vector();

@@ -64,7 +64,8 @@ TEST_CASE("A subset is solved as its rows and columns are by a dense factorisati
         between.vertex = {0, 2, 4, 6};
         between.weight = {1.0, -0.2, -0.3, -0.5};
         system.contacts.push_back(between);
-        fill_matrix(system.terms, system.contacts, system.matrix);
+        for (const int size : {2, 3, count}) system.add_outer(size, 3.0);
+        system.fill();
         for (const std::vector<int>& some : {std::vector<int>{4}, {0, 1, 2, 5, 8}, {8, 3, 6}}) {
             check_against_dense(subset, system.matrix, free_ones_of(system.matrix, some), system.random_vector());
         }
@@ -77,7 +78,7 @@ TEST_CASE("A subset includes the coupling of the edges of membranes") {
     REQUIRE_FALSE(sheet.terms.corners.empty());
     BlockMatrix matrix;
     set_pattern(compute, sheet.model.adjacency, sheet.model.mass, matrix);
-    fill_matrix(sheet.terms, {}, matrix);
+    fill_matrix(sheet.terms, {}, no_blocks, matrix);
     std::vector<int> vertices(20);
     std::iota(vertices.begin(), vertices.end(), 23);
     Random random(11);

@@ -36,8 +36,8 @@ struct Bodies {
     static CoupledBlock against_obstacle(int vertex) { return {{vertex, vertex ^ 1, -1, -1}, {0.3, 0.7, 0, 0}, {}}; }
     static CoupledBlock between(int first, int second) { return {{first, second, -1, -1}, {1, -1, 0, 0}, {}}; }
 
-    std::vector<int> open(const std::vector<CoupledBlock>& blocks) {
-        rigid_modes.find(scene, states, blocks);
+    std::vector<int> open(const std::vector<CoupledBlock>& blocks, const OuterBlocks& outer = {}) {
+        rigid_modes.find(scene, states, {{}, blocks}, outer);
         std::vector<int> found;
         rigid_modes.for_each_open(scene.model, [&](const Body& body) { found.push_back(body.first / 2); });
         return found;
@@ -82,6 +82,27 @@ TEST_CASE("Groups that meet later become one, also through contacts of two edges
     bodies.rigid_modes.correct(bodies.scene.model, bodies.residual, bodies.direction);
     CHECK(bodies.missing({0, 1, 2, 3}).norm() < 1e-12);
     CHECK(bodies.open({}).empty());
+}
+
+TEST_CASE("An outer block joins its bodies, and holds them where it acts on their translation") {
+    Bodies bodies;
+    OuterBlocks outer;
+    const OuterBlocks::NewBlock block = outer.add(3);
+    const Vec3 g(0.3, -0.1, 0.7);
+    for (int k = 0; k < 3; ++k) block.vertex[k] = 2 * k;
+    block.gradient[0] = 0.4 * g;
+    block.gradient[1] = 0.6 * g;
+    block.gradient[2] = -g;
+    CHECK(bodies.open({}, outer) == std::vector{0, 1, 2});
+    bodies.rigid_modes.correct(bodies.scene.model, bodies.residual, bodies.direction);
+    CHECK(bodies.missing({0, 1, 2}).norm() < 1e-12);
+    CHECK(bodies.missing({0}).norm() > 0.1);
+    block.gradient[2] = -0.5 * g;
+    const Vec3Arrays before = bodies.direction;
+    CHECK(bodies.open({}, outer) == std::vector{0, 1, 2});
+    bodies.rigid_modes.correct(bodies.scene.model, bodies.residual, bodies.direction);
+    for (int i = 0; i < 6; ++i) CHECK(bodies.direction.at(i) == before.at(i));
+    CHECK(bodies.missing({3}).norm() < 1e-12);
 }
 
 TEST_CASE("An obstacle holds bodies in contact with it and bodies in contact with those") {

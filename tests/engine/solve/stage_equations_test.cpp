@@ -78,23 +78,4 @@ TEST_CASE("A move is clamped before it crosses, and velocities with it") {
     }
 }
 
-TEST_CASE("Blocks of single vertices stand before those of contact and belong to no constraint") {
-    std::vector<SymmetricBlock> blocks(30);
-    for (std::size_t i = 0; i < 30; ++i) blocks[i].fill(static_cast<double>(i));
-    ContactTerms contact;
-    contact.blocks.resize(50);
-    set_vertex_blocks(blocks, contact);
-    REQUIRE(contact.blocks.size() == 30);
-    Vec3Arrays forces, positions;
-    positions.resize(30);
-    std::vector<ConstraintForce> constraint_forces;
-    add_contact({}, {}, positions, forces, contact, constraint_forces);
-    REQUIRE(contact.blocks.size() == 30);
-    for (int i = 0; i < 30; ++i) {
-        CHECK(contact.blocks[i].vertex == std::array<int, 4>{i, -1, -1, -1});
-        CHECK(contact.blocks[i].k == blocks[i]);
-        CHECK(contact.blocks[i].constraint == -1);
-    }
-}
-
 }  // namespace percale::test::stage_equations_test

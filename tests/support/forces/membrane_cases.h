@@ -52,7 +52,7 @@ struct Strained {
     Eigen::MatrixXd matrix() const {
         BlockMatrix block;
         set_pattern(compute, model.adjacency, model.mass, block);
-        fill_matrix(terms, {}, block);
+        fill_matrix(terms, {}, no_blocks, block);
         const int count = model.vertex_count();
         Eigen::MatrixXd dense(3 * count, 3 * count);
         AlignedVector<double> points;

@@ -17,6 +17,7 @@ struct SheetSystem {
     Random random;
     ClothModel model;
     std::vector<CoupledBlock> contacts;
+    ForceBlocks blocks;
     SpringTerms terms;
     BlockMatrix matrix;
     Vec3Arrays right;  // dt f, kg m/s
@@ -46,7 +47,7 @@ struct SheetSystem {
     SheetSystem& operator=(const SheetSystem&) = delete;
 
     int count() const { return model.vertex_count(); }
-    void fill() { fill_matrix(terms, contacts, matrix); }
+    void fill() { fill_matrix(terms, contacts, blocks, matrix); }
 
     void pin_share(double share) {
         for (int i = 0; i < count(); ++i) {
@@ -63,6 +64,21 @@ struct SheetSystem {
             for (int b = a; b < 3; ++b) block[entry++] = stiffness * n[a] * n[b];
         }
         return block;
+    }
+
+    /// The area of each triangle resists by an outer block, `factor` times as stiff as the diagonal block of its first vertex.
+    void hold_areas(double factor) {
+        for (const Triangle& t : model.triangles) {
+            const Vec3 n = (model.rest[t[1]] - model.rest[t[0]]).cross(model.rest[t[2]] - model.rest[t[0]]).normalized();
+            const OuterBlocks::NewBlock block = blocks.outer.add(3);
+            const double length = (model.rest[t[2]] - model.rest[t[1]]).norm();
+            for (int k = 0; k < 3; ++k) {
+                block.vertex[k] = t[k];
+                block.gradient[k] = n.cross(model.rest[t[(k + 2) % 3]] - model.rest[t[(k + 1) % 3]]) *
+                                    (std::sqrt(factor * matrix.diagonal[0][t[0]]) / length);
+            }
+        }
+        fill();
     }
 
     /// Contacts along random directions, stiffer than the vertex's own block by a random factor.
