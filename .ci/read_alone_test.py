@@ -24,6 +24,12 @@ class Users(unittest.TestCase):
     def test_what_is_no_code_asks_for_itself(self):
         self.assertEqual(self.users('README.md', 'c.cpp'), ['README.md', 'c.cpp'])
 
+    def test_of_many_the_most_that_are_allowed_are_taken_evenly(self):
+        paths = {f'{number:03}' for number in range(100)}
+        self.assertEqual(read_alone.evenly(paths, 100), paths)
+        self.assertEqual(sorted(read_alone.evenly(paths, 4)), ['000', '025', '050', '075'])
+        self.assertEqual(read_alone.evenly(paths, -3), set())
+
 
 if __name__ == '__main__':
     unittest.main()

@@ -51,13 +51,13 @@ Multigrid::Multigrid(const Compute& compute, const Adjacency& pattern, std::span
     : compute_(compute), adjacency_(pattern) {
     SpringGraph graph{.positions = {rest.begin(), rest.end()}, .pairs = {}, .strength = {}};
     // Pairs in the order of their vertices: neighbours are then near in memory, too.
-    std::vector<bool> seen(pattern.place.size(), false);
+    pair_of_spring_.assign(pattern.place.size(), -1);
     for (int s = 0; s < pattern.slices(); ++s) {
         for (int lane = 0; lane < slice_lanes; ++lane) {
             for (int e = pattern.start[s] + lane; e < pattern.start[s + 1]; e += slice_lanes) {
                 const std::size_t spring = pattern.spring[e];
-                if (spring >= seen.size() || seen[spring]) continue;
-                seen[spring] = true;
+                if (spring >= pair_of_spring_.size() || pair_of_spring_[spring] >= 0) continue;
+                pair_of_spring_[spring] = static_cast<int>(graph.pairs.size());
                 graph.pairs.push_back({s * slice_lanes + lane, pattern.other[e]});
                 graph.strength.push_back(pattern.strength(static_cast<int>(spring)));
                 pair_value_.push_back(pattern.value_place(static_cast<int>(spring)));
@@ -151,6 +151,7 @@ void Multigrid::fill(const BlockMatrix& matrix, Coarser coarser) {
     set_rows(matrix);
     if (coarser == Coarser::kept) return;
     expand_blocks(*matrix.springs);
+    expand_outer();
     for (int k = 1; k < levels(); ++k) fill_level(k);
     if (bottom_size_ > 0) fill_bottom();
 }
@@ -296,6 +297,33 @@ void Multigrid::expand_stretch(const SpringTerms& springs, int first_pair, int l
         block[4] = y * z;
         block[5] = a + z * z;
         block += 8;
+    }
+}
+
+/// The number of the pair of two vertices; -1: no spring joins them.
+int Multigrid::pair_between(int first, int second) const {
+    const int slice = first / slice_lanes, lane = first % slice_lanes;
+    for (int e = adjacency_.start[slice] + lane; e < adjacency_.start[slice + 1]; e += slice_lanes) {
+        if (adjacency_.other[e] == second && second != first) return pair_of_spring_[adjacency_.spring[e]];
+    }
+    return -1;
+}
+
+/// Adds the local outer blocks to those of the pairs among their vertices.
+void Multigrid::expand_outer() {
+    for (const OuterBlocks::Block& outer : outer_) {
+        const std::size_t count = outer.vertex.size();
+        for (std::size_t k = 0; k < count; ++k) {
+            for (std::size_t l = k + 1; l < count; ++l) {
+                const int pair = pair_between(outer.vertex[k], outer.vertex[l]);
+                if (pair < 0) continue;
+                const Vec3 h = (outer.gradient[k] - outer.gradient[l]) / static_cast<double>(count);
+                SymmetricBlock block{};
+                add_normal_block(block, 0.5 * static_cast<double>(count * (count - 1)), h);
+                float* sum = &levels_[0].blocks[8 * static_cast<std::size_t>(pair)];
+                for (int entry = 0; entry < 6; ++entry) sum[entry] += static_cast<float>(block[entry]);
+            }
+        }
     }
 }
 

@@ -24,7 +24,9 @@ using FloatVec = std::array<float, 3>;
 /// largest energy l F(l)^2 over the eigenvalues l of D^-1 C (smoothed aggregation: Vanek, Mandel and Brezina 1996, Computing 56).
 /// Coarser diagonals keep S K of all constraints: without it layers move far apart, and stiff constraints need more iterations.
 ///
-/// Local outer blocks are exact on the finest level, too; coarser ones leave them out, and are too soft for them.
+/// Local outer blocks are exact on the finest level, too. Coarser levels take one of n vertices that resists no translation, u =
+/// sum g_k . x_k, as springs on the m edges among them: u = sum h . (x_k - x_l) with h = (g_k - g_l)/n, and u^2 <= m sum (h .
+/// (x_k - x_l))^2, which is too stiff by m at most.
 class Multigrid {
 public:
     /// The springs of `pattern` in rest positions (m, one per vertex). All arguments are viewed.
@@ -103,6 +105,8 @@ private:
     void set_rows(const BlockMatrix& matrix);
     void expand_blocks(const SpringTerms& springs);
     void expand_stretch(const SpringTerms& springs, int first_pair, int last_pair);
+    void expand_outer();
+    int pair_between(int first, int second) const;
     void fill_level(int k);
     void restrict_ground(int k);
     void restrict_mass();
@@ -138,6 +142,7 @@ private:
     const Compute& compute_;
     const Adjacency& adjacency_;
     std::vector<Adjacency::ValuePlace> pair_value_;  // of the finest level: the place of each pair's block
+    std::vector<int> pair_of_spring_;                // or -1
     AlignedVector<float> guarded_;                   // work space of products with bands
     std::vector<LevelPattern> patterns_;
     std::vector<Level> levels_;

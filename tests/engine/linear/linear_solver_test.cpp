@@ -323,24 +323,25 @@ TEST_CASE("A wide outer block costs no iterations, however stiff it is") {
             iterations.push_back(solver.solve(ball.system.right, {.relative_residual = 1e-6}, x).iterations);
         }
         CAPTURE(static_cast<int>(choice), iterations);
-        CHECK(iterations[1] <= iterations[0] + 1);
-        CHECK(iterations[2] <= iterations[0] + 1);
+        CHECK(iterations[1] <= iterations[0] + 3);
+        CHECK(iterations[2] <= iterations[0] + 3);
     }
 }
 
-TEST_CASE("Local outer blocks cost few iterations") {
-    for (const LinearSolver choice : {LinearSolver::cg, LinearSolver::multigrid}) {
+TEST_CASE("Multigrid sees local outer blocks on all its levels: it needs a tenth of block Jacobi's iterations, as without them") {
+    for (const double factor : {0.0, 1.0, 10.0}) {
+        SheetSystem sheet(3, 33, 0.3);
+        if (factor > 0.0) sheet.hold_areas(factor);
         std::vector<int> iterations;
-        for (const double factor : {0.0, 1.0, 10.0}) {
-            SheetSystem sheet(3, 33, 0.3);
-            if (factor > 0.0) sheet.hold_areas(factor);
+        for (const LinearSolver choice : {LinearSolver::cg, LinearSolver::multigrid}) {
             Prepared prepared(sheet, choice);
             Vec3Arrays x;
-            iterations.push_back(prepared.solve(sheet, 1e-6, x).iterations);
+            const SolveReport report = prepared.solve(sheet, 1e-6, x);
+            CHECK(report.converged);
+            iterations.push_back(report.iterations);
         }
-        CAPTURE(static_cast<int>(choice), iterations);
-        CHECK(iterations[1] <= 2 * iterations[0]);
-        CHECK(iterations[2] <= 4 * iterations[0]);
+        CAPTURE(factor, iterations);
+        CHECK(10 * iterations[1] < iterations[0]);
     }
 }
 
