@@ -41,8 +41,7 @@ struct LoneTerm {
         set_pattern(step.scene.compute, model.adjacency, std::vector<double>(model.vertex_count(), 0.0), matrix);
         if (forces.spring_terms.values.empty()) forces.spring_terms.values.assign(model.adjacency.value_count(), 0.0f);
         matrix.springs = &forces.spring_terms;
-        matrix.coupled = {forces.blocks.coupled, {}};
-        matrix.of_forces = &forces.blocks;
+        set_blocks({}, forces.blocks, matrix);
     }
 
     /// Sets product to its part of the matrix times a direction.

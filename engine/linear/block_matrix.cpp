@@ -56,12 +56,22 @@ void gather_coupled(BlockMatrix& matrix) {
     }
 }
 
+void expand(const OuterBlocks::Block& block, std::size_t padded, Vec3Arrays& gradient) {
+    gradient.resize(static_cast<int>(padded));
+    for (std::size_t k = 0; k < block.vertex.size(); ++k) gradient.set(block.vertex[k], block.gradient[k]);
+}
+
 void gather_outer(BlockMatrix& matrix) {
     const OuterBlocks& blocks = matrix.of_forces->outer;
+    std::size_t wide = 0;
     for (int number = 0; number < blocks.size(); ++number) {
         const OuterBlocks::Block block = blocks[number];
-        (is_local(block) ? matrix.local_outer : matrix.wide_outer).push_back(number);
-        if (!is_local(block)) continue;
+        if (!is_local(block)) {
+            if (wide == matrix.wide_outer.size()) matrix.wide_outer.emplace_back();
+            expand(block, matrix.padded(), matrix.wide_outer[wide++]);
+            continue;
+        }
+        matrix.local_outer.push_back(number);
         double length = 0.0;
         for (const Vec3& g : block.gradient) length += g.norm();
         for (std::size_t k = 0; k < block.vertex.size(); ++k) {
@@ -70,15 +80,7 @@ void gather_outer(BlockMatrix& matrix) {
             add_normal_block(blocks_of(matrix, block.vertex[k]).outer, length / g.norm(), g);
         }
     }
-}
-
-void gather_blocks(BlockMatrix& matrix) {
-    for (const VertexBlocks& blocks : matrix.by_vertex) matrix.slot[blocks.vertex] = -1;
-    matrix.by_vertex.clear();
-    matrix.local_outer.clear();
-    matrix.wide_outer.clear();
-    gather_coupled(matrix);
-    gather_outer(matrix);
+    matrix.wide_outer.resize(wide);
 }
 
 void invert_diagonal(BlockMatrix& matrix) {
@@ -153,13 +155,21 @@ void fill_diagonal(const BlockMatrix& matrix, const SpringTerms& springs, Diagon
                [&](Slices range) { matrix.compute->kernels->corner_diagonal(corners, sums, range); });
 }
 
+void set_blocks(std::span<const CoupledBlock> contacts, const ForceBlocks& of_forces, BlockMatrix& matrix) {
+    matrix.coupled = {of_forces.coupled, contacts};
+    matrix.of_forces = &of_forces;
+    for (const VertexBlocks& blocks : matrix.by_vertex) matrix.slot[blocks.vertex] = -1;
+    matrix.by_vertex.clear();
+    matrix.local_outer.clear();
+    gather_coupled(matrix);
+    gather_outer(matrix);
+}
+
 void fill_matrix(const SpringTerms& springs, std::span<const CoupledBlock> contacts, const ForceBlocks& of_forces,
                  BlockMatrix& matrix) {
     matrix.springs = &springs;
-    matrix.coupled = {of_forces.coupled, contacts};
-    matrix.of_forces = &of_forces;
     fill_diagonal(matrix, springs, matrix.diagonal, matrix.inverse);
-    gather_blocks(matrix);
+    set_blocks(contacts, of_forces, matrix);
     invert_diagonal(matrix);
 }
 
@@ -182,20 +192,20 @@ double multiply_placed(const BlockMatrix& matrix, const Vec3Arrays& x, const Ali
                           [&](Slices range) { return compute.kernels->multiply_corners(corners, product, range); });
     }
     sum += add_coupled_product(matrix, x, y);
-    const ForceBlocks& blocks = *matrix.of_forces;
-    if (blocks.outer.size() == 0 && blocks.loads.empty()) return sum;
-    add_force_product(blocks, x, y);
+    if (matrix.of_forces->outer.size() == 0 && matrix.of_forces->loads.empty()) return sum;
+    add_force_product(matrix, x, y);
     filter(matrix, y);
     return dot(compute, x, y);
 }
 
-void add_force_product(const ForceBlocks& blocks, const Vec3Arrays& x, Vec3Arrays& y) {
-    for (int number = 0; number < blocks.outer.size(); ++number) {
-        const OuterBlocks::Block block = blocks.outer[number];
+void add_force_product(const BlockMatrix& matrix, const Vec3Arrays& x, Vec3Arrays& y) {
+    for (const int number : matrix.local_outer) {
+        const OuterBlocks::Block block = matrix.of_forces->outer[number];
         const double along = dot(block, x);
         for (std::size_t k = 0; k < block.vertex.size(); ++k) y.add(block.vertex[k], along * block.gradient[k]);
     }
-    for (const auto& [vertex, first, second] : blocks.loads) {
+    for (const Vec3Arrays& gradient : matrix.wide_outer) add_scaled(y, dot(*matrix.compute, gradient, x), gradient);
+    for (const auto& [vertex, first, second] : matrix.of_forces->loads) {
         const Vec3 a = x.at(vertex[0]);
         const Vec3 change = (x.at(vertex[1]) - a).cross(second) + first.cross(x.at(vertex[2]) - a);
         for (const int corner : vertex) y.add(corner, change);

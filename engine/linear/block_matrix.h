@@ -44,9 +44,10 @@ struct BlockMatrix {
     AlignedVector<float> inverse;            // of the diagonal blocks with `by_vertex`, six arrays; 0 at prescribed vertices
     CoupledBlocks coupled;                   // viewed, not copied
     const ForceBlocks* of_forces = nullptr;  // viewed, not copied: outer blocks, and loads, which are in no preconditioner
-    std::vector<int> local_outer, wide_outer;
-    std::vector<VertexBlocks> by_vertex;  // of all coupled and local outer blocks
-    std::vector<int> slot;                // of a vertex in by_vertex, or -1
+    std::vector<int> local_outer;            // of these
+    std::vector<Vec3Arrays> wide_outer;      // g of the others, at all vertices
+    std::vector<VertexBlocks> by_vertex;     // of all coupled and local outer blocks
+    std::vector<int> slot;                   // of a vertex in by_vertex, or -1
 
     std::size_t padded() const { return free.size(); }
     int slices() const { return pattern->slices(); }
@@ -59,12 +60,15 @@ void set_pattern(const Compute& compute, const Adjacency& pattern, std::span<con
 void fill_diagonal(const BlockMatrix& matrix, const SpringTerms& springs, DiagonalBlocks& diagonal,
                    AlignedVector<float>& inverse);
 
-/// Takes springs, contacts and the blocks of forces of a state.
+/// Takes the blocks of contact and of forces of a state, for products and `by_vertex`.
+void set_blocks(std::span<const CoupledBlock> contacts, const ForceBlocks& of_forces, BlockMatrix& matrix);
+
+/// Takes springs and blocks of a state, and makes the block diagonal and its inverse.
 void fill_matrix(const SpringTerms& springs, std::span<const CoupledBlock> contacts, const ForceBlocks& of_forces,
                  BlockMatrix& matrix);
 
 /// y += A_b x at all vertices, where A_b are the outer blocks and the loads.
-void add_force_product(const ForceBlocks& blocks, const Vec3Arrays& x, Vec3Arrays& y);
+void add_force_product(const BlockMatrix& matrix, const Vec3Arrays& x, Vec3Arrays& y);
 
 /// y = A x on the free vertices, 0 at prescribed ones; returns x . y over the free ones. `points` is work space.
 double multiply(const BlockMatrix& matrix, const Vec3Arrays& x, AlignedVector<double>& points, Vec3Arrays& y);

@@ -22,7 +22,6 @@ private:
     Preconditioner of_matrix_;
     std::vector<Vec3Arrays> columns_;   // Z
     Eigen::LLT<Eigen::MatrixXd> core_;  // I + G^T Z
-    Vec3Arrays gradient_;               // work space: a column of G
 };
 
 }  // namespace percale

@@ -311,18 +311,18 @@ int Multigrid::pair_between(int first, int second) const {
 
 /// Adds the local outer blocks to those of the pairs among their vertices.
 void Multigrid::expand_outer() {
+    const auto expand = [&](const OuterBlocks::Block& outer, std::size_t k, std::size_t l) {
+        const int pair = pair_between(outer.vertex[k], outer.vertex[l]);
+        if (pair < 0) return;
+        const double count = static_cast<double>(outer.vertex.size());
+        SymmetricBlock block{};
+        add_normal_block(block, 0.5 * count * (count - 1.0), (outer.gradient[k] - outer.gradient[l]) / count);
+        float* sum = &levels_[0].blocks[8 * static_cast<std::size_t>(pair)];
+        for (int entry = 0; entry < 6; ++entry) sum[entry] += static_cast<float>(block[entry]);
+    };
     for (const OuterBlocks::Block& outer : outer_) {
-        const std::size_t count = outer.vertex.size();
-        for (std::size_t k = 0; k < count; ++k) {
-            for (std::size_t l = k + 1; l < count; ++l) {
-                const int pair = pair_between(outer.vertex[k], outer.vertex[l]);
-                if (pair < 0) continue;
-                const Vec3 h = (outer.gradient[k] - outer.gradient[l]) / static_cast<double>(count);
-                SymmetricBlock block{};
-                add_normal_block(block, 0.5 * static_cast<double>(count * (count - 1)), h);
-                float* sum = &levels_[0].blocks[8 * static_cast<std::size_t>(pair)];
-                for (int entry = 0; entry < 6; ++entry) sum[entry] += static_cast<float>(block[entry]);
-            }
+        for (std::size_t k = 0; k < outer.vertex.size(); ++k) {
+            for (std::size_t l = k + 1; l < outer.vertex.size(); ++l) expand(outer, k, l);
         }
     }
 }

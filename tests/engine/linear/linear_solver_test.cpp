@@ -263,7 +263,7 @@ struct FilledBall {
                              .with_matrix = true},
                             forces);
         system.pin_share(0.1);
-        system.matrix.of_forces = &forces.blocks;
+        set_blocks({}, forces.blocks, system.matrix);
     }
 
     /// The motion of prescribed vertices, 0 at the others.
