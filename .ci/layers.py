@@ -24,7 +24,7 @@ CODE_SUFFIXES = ('.cpp', '.h', '.inl')
 # engine but `public` may include its tolerances.h; a layer's tolerances.h includes no file of the project.
 PUBLIC = {'public', 'public_collision'}
 ENGINE_PARTS = ['support', 'kernels', 'mesh', 'model', 'forces', 'contact', 'schemes', 'linear', 'plan', 'solve', 'substep', 'checks',
-                'step', 'changes', 'start', 'state']
+                'compliant', 'step', 'changes', 'start', 'state']
 MAY_INCLUDE = {
     'public': {'public'},
     'public_collision': PUBLIC,

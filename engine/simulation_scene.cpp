@@ -2,12 +2,12 @@
 #include <cmath>
 #include <utility>
 
+#include "compliant/compliant_obstacle.h"
 #include "percale/options.h"
 #include "plan/planning.h"
 #include "simulation_implementation.h"
 #include "start/start_check.h"
 #include "state/saved_world.h"
-#include "step/compliant_obstacle.h"
 #include "step/sewing.h"
 #include "support/checked_workers.h"
 #include "support/stage_timer.h"
@@ -56,7 +56,7 @@ ClothId Simulation::add_cloth(const TriangleMesh& mesh, const Fabric& fabric, co
     append_whole_cloth(model, placed, fabric, name, shape);
     finish_model(model);
     world.scene.model = std::move(model);
-    world.work.newton.solver.forget_model();
+    world.work.newton.system.solver.forget_model();
     set_workers(world);
     // The vertices of earlier cloths keep their state and their pins.
     ClothState state;
@@ -109,17 +109,17 @@ ObstacleId Simulation::add_obstacle(const TriangleMesh& mesh, const Pose& pose, 
     } else {
         world.scene.detector->add_obstacle(mesh, placed, settings.friction);
     }
-    world.scene.script.obstacles.push_back({.name = settings.name,
-                                            .start = placed,
-                                            .end = placed,
-                                            .triangles = static_cast<int>(mesh.triangles.size()),
-                                            .restitution = settings.restitution,
-                                            .reach = placed.scale * std::sqrt(square),
-                                            .start_shape = shape,
-                                            .end_shape = shape,
-                                            .compliant = settings.yields ? compliant_mesh(mesh) : nullptr,
-                                            .aim = settings.yields ? shape : nullptr,
-                                            .friction = settings.friction});
+    world.scene.script.obstacles.push_back(
+        {.name = settings.name,
+         .start = placed,
+         .end = placed,
+         .triangles = static_cast<int>(mesh.triangles.size()),
+         .restitution = settings.restitution,
+         .reach = placed.scale * std::sqrt(square),
+         .start_shape = shape,
+         .end_shape = shape,
+         .compliance = settings.yields ? Compliance{compliant_mesh(mesh), shape} : Compliance{},
+         .friction = settings.friction});
     world.changed = true;
     scene_changed(world);
     return {world.obstacle_numbers.give()};

@@ -70,7 +70,7 @@ void Simulation::deform_obstacle(ObstacleId obstacle, std::span<const Vec3> end)
     if (world.refused.obstacle != implementation_->index(obstacle)) return;
     if (state.deforms()) state.reach = state.end_reach;
     state.start_shape = state.end_shape;  // no step starts from the refused place
-    state.deflection.clear();
+    state.compliance.deflection.clear();
     state.shape_travel = 0.0;
     state.settled = false;
 }

@@ -97,11 +97,11 @@ constexpr double part_rounding = 1e-9, carried_pin_error = 1e-8;
 /// iterations. Smaller: more steps until the limit is kept. Larger hold: a limit that cannot be kept pulls ever harder.
 constexpr double limit_stiffness = 10.0, max_held_strain = 2.0, limit_time = 1.0 / 60.0;
 
-// ---- step/: compliant obstacles
+// ---- compliant/, step/: pinches
 
-/// Cosines between the directions of two contacts: the maximum for contacts on opposite sides of cloth, the minimum for those on
-/// one side. Nearer to 0: surfaces beside each other count as a pinch. Farther: slanted ones are not seen.
-constexpr double opposite_sides = -0.5, same_side = 0.5;
+/// Maximum of the cosine between the directions of two contacts on opposite sides of cloth. Nearer to 0: surfaces beside each
+/// other count as a pinch. Farther: slanted ones are not seen.
+constexpr double opposite_sides = -0.5;
 
 // ---- checks/: derivatives against differences, for settings.check_derivatives. Smaller: right forces are found wrong. Larger:
 // wrong ones pass.

@@ -111,7 +111,7 @@ void add_checked_terms(const StepEnd& step, double difference_step, std::vector<
         add(*term, std::string(term->name()), undamped_springs(step));
         if (term != &spring_term() || !step.scene.plan.implicit || step.scene.plan.damping != DampingForm::length_rate) continue;
         // These are the springs of the last substep, whose start determines them.
-        add(*term, "damped springs", step.work.newton.springs);
+        add(*term, "damped springs", step.work.newton.stage.springs);
     }
 }
 
@@ -141,8 +141,8 @@ struct ContactCheck {
                                   .fraction = 1.0,
                                   .gravity = step.scene.settings.gravity,
                                   .mass = &step.scene.model.mass,
-                                  .diagonal = &step.work.newton.frozen_diagonal,
-                                  .load = &step.work.newton.frozen_load};
+                                  .diagonal = &step.work.newton.stage.frozen.diagonal,
+                                  .load = &step.work.newton.stage.frozen.load};
         std::vector<ConstraintForce> constraint_forces;
         add_contact(moved, contact, positions, forces, result, constraint_forces);
         return result.energy;

@@ -26,6 +26,14 @@ struct CompliantMesh {
     double edge = 0.0;       // m, mean length of the triangles' edges, before the pose
 };
 
+/// How far the surface of a compliant obstacle has given way (compliant/). m, before the pose.
+struct Compliance {
+    std::shared_ptr<const CompliantMesh> mesh = {};  // null: the obstacle is not compliant
+    Shape aim = {};                                  // the end shape without deflections
+    std::vector<Vec3> deflection = {};               // start_shape minus the shape without deflections; empty: zero
+    std::vector<Vec3> next_deflection = {};          // end_shape minus aim, during a step
+};
+
 struct ObstacleState {
     std::string name;
     Pose start, end;  // of the coming step
@@ -38,14 +46,16 @@ struct ObstacleState {
     double shape_travel = 0.0;               // m, largest displacement between them, the pose's scale included
     double end_reach = 0.0;                  // m, `reach` at the end of the step, if it deforms
 
-    std::shared_ptr<const CompliantMesh> compliant = {};  // null: the obstacle is not compliant
-    Shape aim = {};                                       // of a compliant one: the end shape without deflections
-    std::vector<Vec3> deflection = {};       // m, before the pose: start_shape minus the shape without deflections; empty: zero
-    std::vector<Vec3> next_deflection = {};  // end_shape minus aim, during a step
-    double friction = 0.0;                   // as passed to the detector
+    Compliance compliance = {};
+    double friction = 0.0;  // as passed to the detector
 
     bool deforms() const { return start_shape != end_shape; }
     bool moves() const { return start != end || deforms(); }
+    /// Passes to the detector where the obstacle of a number is at the ends of the coming step.
+    void pass_to(ContactDetector& detector, int number) const {
+        if (start_shape) detector.deform_obstacle(number, *start_shape, *end_shape);
+        detector.move_obstacle(number, start, end);
+    }
     /// Sets the shape at the end of the step.
     void go_to(Shape shape) {
         double travel = 0.0, farthest = 0.0, before = 0.0;
@@ -61,8 +71,8 @@ struct ObstacleState {
     }
     /// Sets the end shape without deflections.
     void aim_at(Shape shape) {
-        if (compliant && aim && *aim == *shape) return;  // resting deflections stay
-        if (compliant) aim = shape;
+        if (compliance.mesh && compliance.aim && *compliance.aim == *shape) return;  // resting deflections stay
+        if (compliance.mesh) compliance.aim = shape;
         go_to(std::move(shape));
     }
     /// Ends its motion. Deflections return, unless the shape stayed as it was.
@@ -71,6 +81,7 @@ struct ObstacleState {
         if (deforms()) reach = end_reach;
         start_shape = end_shape;
         shape_travel = 0.0;
+        auto& [mesh, aim, deflection, next_deflection] = compliance;
         const bool same = next_deflection == deflection;
         deflection = std::move(next_deflection);
         next_deflection.clear();
@@ -78,8 +89,8 @@ struct ObstacleState {
     }
     /// Undoes its motion after a failed step.
     void stay() {
-        if (compliant) go_to(aim);
-        next_deflection.clear();
+        if (compliance.mesh) go_to(compliance.aim);
+        compliance.next_deflection.clear();
     }
 };
 

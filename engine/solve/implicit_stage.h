@@ -1,21 +1,14 @@
 #pragma once
 
-#include <limits>
 #include <span>
 #include <vector>
 
-#include "body_states.h"
 #include "contact/friction.h"
 #include "contact/penalty.h"
 #include "contact/projection.h"
-#include "contact/trial_contacts.h"
 #include "forces/total_force.h"
-#include "linear/linear_solver.h"
 #include "plan/scene.h"
-#include "rigid_mode_correction.h"
 #include "schemes/stage_base.h"
-#include "subset_space.h"
-#include "support/deadline.h"
 
 namespace percale {
 
@@ -58,27 +51,20 @@ struct StagePoint {
     double objective = 0.0;                          // J: 1/2 |v - v*|_M^2 + potential; r is its gradient by v
 };
 
-/// Work space of solves, kept from step to step so that nothing is allocated once sizes are known. Only the solver chosen last
-/// (StepSolver::choice) has an influence on later stages.
-struct NewtonSpace {
+/// Forces without contact and their diagonal blocks at the first evaluation of a stage, by which contact sets its stiffness.
+struct FrozenForces {
+    DiagonalBlocks diagonal;  // kg; empty until then
+    AlignedVector<float> inverse;
+    Vec3Arrays load;  // N
+};
+
+/// What the equations of a stage are made from, beside its points.
+struct StageSpace {
     StepSprings springs;
-    StepSolver solver;
+    FrictionStart friction;
+    FrozenForces frozen;
     PenaltyContact penalty;
     ProjectedContact projection;
-    DiagonalBlocks frozen_diagonal;  // of the stage's first evaluation; empty until then
-    AlignedVector<float> frozen_inverse;
-    Vec3Arrays frozen_load;  // N
-    StagePoint current, trial;
-    FrictionStart friction;
-    Vec3Arrays direction, right_side;
-    Vec3Arrays first_direction;                             // m/s, without trial contacts
-    RigidModeCorrection rigid_modes;                        // of the last direction
-    std::vector<NetLimit> net_limits;                       // of the last direction
-    BodyStates bodies;                                      // in the rounds of find_motion
-    SubsetSpace subsets;                                    // of the last iteration that looked for one
-    TrialContacts trial_contacts;                           // of the last move that a line search rejected
-    int iterations_left = std::numeric_limits<int>::max();  // of StepSettings::work_limit, for one stage
-    TimeBudget time;                                        // the rest of the step's
 
     ContactLaw& law(ContactResponse response) {
         if (response == ContactResponse::projection) return projection;

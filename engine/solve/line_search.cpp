@@ -43,68 +43,115 @@ constexpr double trial_slope_ratio = 0.5;
 /// Relative. Smaller moves are rounding of positions (a few units in the last place of a double).
 constexpr double position_rounding = 1e-15;
 
-double slope_at(const StageEquations& equations, const StagePoint& point) {
-    return dot(equations.stage().scene.compute, point.residual, equations.space().direction);
-}
-
 bool is_flat(const LineTrial& line) { return std::abs(line.start_slope) <= flat_slope * std::abs(line.start_objective); }
 
-LineTrial line_from(const StageEquations& equations, bool small) {
-    const ImplicitStage& stage = equations.stage();
-    const StagePoint& current = equations.space().current;
-    LineTrial line{.start_objective = current.objective, .start_slope = slope_at(equations, current)};
-    const bool may_turn = stage.scene.settings.newton_iterations == 1 || current.constraints.size() == 0 || is_flat(line);
-    if (!may_turn) line.curvature_constant = stage.projects() && !small ? max_projected_slope : strong_wolfe_constant;
-    return line;
-}
+/// One line: functions that share its direction and its points.
+class Line {
+public:
+    Line(StageEquations& equations, const LineTask& task, StagePoint& current, StagePoint& trial)
+        : equations_(equations),
+          stage_(equations.stage()),
+          task_(task),
+          current_(current),
+          trial_(trial),
+          was_arrived_(equations.arrived(current)) {}
 
-/// Computes the forces at space.trial.
-void evaluate_trial(StageEquations& equations, LineTrial& line) {
-    NewtonSpace& space = equations.space();
-    equations.evaluate(space.trial);
-    line.objective = space.trial.objective;
-    line.slope = slope_at(equations, space.trial);
-}
+    LineResult search() {
+        equations_.move(current_, task_.direction, 1.0, trial_);
+        result_.small = mark_small();
+        const bool rounding = result_.small && was_arrived_ && moves_nothing();
+        begin();
+        double fraction = 1.0, kept = 1.0;
+        bool accepted = false;
+        for (int trial = 0; trial < max_line_trials; ++trial) {
+            if (trial > 0) equations_.move(current_, task_.direction, fraction, trial_);
+            kept = evaluate_trial();
+            line_.objective_known = !equations_.damps_velocity() && current_.constraints.size() + trial_.constraints.size() == 0;
+            // While pins or obstacles are on their way, the objective may have to rise.
+            accepted = !stage_.options.line_search || !was_arrived_ || accept_trial(fraction * kept, line_);
+            if (accepted) break;
+            result_.met_contacts = trial == 0 && task_.trial_contacts && kept == 1.0 && meets_contacts();
+            if (result_.met_contacts) return result_;
+            fraction *= kept * shorten(line_);
+            ++result_.backtracks;
+        }
+        std::swap(current_, trial_);
+        result_.full_step = fraction * kept == 1.0 && was_arrived_;
+        result_.stuck = rounding || (!accepted && was_arrived_ && is_flat(line_));
+        if (accepted && result_.full_step && !result_.small) result_.went_on = go_on();
+        return result_;
+    }
 
-/// Whether the whole direction is too long because of contacts that were out of range at its start: they make most of the slope
-/// at its end.
-bool meets_contacts(const StageEquations& equations, const LineTrial& line) {
-    if (!(line.slope > 0.0)) return false;
-    const ImplicitStage& stage = equations.stage();
-    NewtonSpace& space = equations.space();
-    const StagePoint &current = space.current, &trial = space.trial;
-    const TrialMove move{trial.constraints, trial.constraint_forces, current.positions, space.direction,
-                         stage.base.h,      stage.contact_weight};
-    const double slope = find_trial_contacts(current.contact.blocks, move, space.trial_contacts);
-    return slope >= trial_slope_ratio * line.slope;
-}
+private:
+    double slope_at(const StagePoint& point) const { return dot(stage_.scene.compute, point.residual, task_.direction); }
 
-/// Whether the whole direction moves no vertex by more than the rounding of positions: the residual is then rounding, too.
-bool moves_nothing(const StageEquations& equations) {
-    const NewtonSpace& space = equations.space();
-    const int count = equations.stage().scene.model.vertex_count();
-    const auto largest = [&](const Vec3Arrays& vectors) {
-        return largest_term(equations.stage().scene.compute, 0, count, [&](int i) { return square_at(vectors, i); });
-    };
-    const double moved = equations.stage().base.h * std::sqrt(largest(space.direction));
-    return moved <= position_rounding * std::sqrt(largest(space.current.positions));
-}
+    /// Marks the bodies that the direction changes by little; true: all of them.
+    bool mark_small() {
+        const NewtonChange change{current_.residual, task_.direction, trial_.velocities, current_.constraints.size() > 0};
+        const double error_ratio = allowed_error_ratio(stage_.scene.settings);
+        return task_.bodies.mark(stage_.scene.model,
+                                 [&](const Body& body) { return change_is_small(task_.error, change, error_ratio, body); });
+    }
 
-/// A clamped matrix is too stiff where cloth buckles or begins to slide: the slope then hardly falls over a full step, and the
-/// secant's extension along the same direction costs only an evaluation.
-bool go_on(StageEquations& equations, LineTrial line) {
-    const ImplicitStage& stage = equations.stage();
-    const double ratio = line.slope / line.start_slope;
-    if (!(ratio > slope_left_ratio) || !stage.options.line_search || stage.scene.settings.newton_iterations == 1) return false;
-    const double further = std::min(ratio / std::max(1.0 - ratio, min_secant_fall), longest_secant_step);
-    line.start_objective = line.objective;
-    line.start_slope = line.slope;
-    equations.aim(further);
-    const double kept = equations.cut();
-    evaluate_trial(equations, line);
-    if (accept_trial(further * kept, line)) std::swap(equations.space().current, equations.space().trial);
-    return true;
-}
+    /// Whether the whole direction moves no vertex by more than the rounding of positions: the residual is then rounding, too.
+    bool moves_nothing() const {
+        const auto largest = [&](const Vec3Arrays& vectors) {
+            return largest_term(stage_.scene.compute, 0, stage_.scene.model.vertex_count(),
+                                [&](int i) { return square_at(vectors, i); });
+        };
+        const double moved = stage_.base.h * std::sqrt(largest(task_.direction));
+        return moved <= position_rounding * std::sqrt(largest(current_.positions));
+    }
+
+    void begin() {
+        line_ = {.start_objective = current_.objective, .start_slope = slope_at(current_)};
+        const bool may_turn = stage_.scene.settings.newton_iterations == 1 || current_.constraints.size() == 0 || is_flat(line_);
+        if (!may_turn)
+            line_.curvature_constant = stage_.projects() && !result_.small ? max_projected_slope : strong_wolfe_constant;
+    }
+
+    /// Clamps the trial and computes its forces; returns the fraction of the move that was kept.
+    double evaluate_trial() {
+        const double kept = equations_.clamp(current_, trial_);
+        equations_.evaluate(trial_, &current_);
+        line_.objective = trial_.objective;
+        line_.slope = slope_at(trial_);
+        return kept;
+    }
+
+    /// Whether the whole direction is too long because of contacts that were out of range at its start: they make most of the
+    /// slope at its end.
+    bool meets_contacts() const {
+        if (!(line_.slope > 0.0)) return false;
+        const TrialMove move{trial_.constraints, trial_.constraint_forces, current_.positions, task_.direction,
+                             stage_.base.h,      stage_.contact_weight};
+        const double slope = find_trial_contacts(current_.contact.blocks, move, *task_.trial_contacts);
+        return slope >= trial_slope_ratio * line_.slope;
+    }
+
+    /// A clamped matrix is too stiff where cloth buckles or begins to slide: the slope then hardly falls over a full step, and
+    /// the secant's extension along the same direction costs only an evaluation.
+    bool go_on() {
+        const double ratio = line_.slope / line_.start_slope;
+        if (!(ratio > slope_left_ratio) || !stage_.options.line_search || stage_.scene.settings.newton_iterations == 1)
+            return false;
+        const double further = std::min(ratio / std::max(1.0 - ratio, min_secant_fall), longest_secant_step);
+        line_.start_objective = line_.objective;
+        line_.start_slope = line_.slope;
+        equations_.move(current_, task_.direction, further, trial_);
+        const double kept = evaluate_trial();
+        if (accept_trial(further * kept, line_)) std::swap(current_, trial_);
+        return true;
+    }
+
+    StageEquations& equations_;
+    const ImplicitStage& stage_;
+    const LineTask& task_;
+    StagePoint &current_, &trial_;
+    bool was_arrived_;
+    LineTrial line_;
+    LineResult result_;
+};
 
 }  // namespace
 
@@ -124,39 +171,8 @@ double shorten(const LineTrial& trial) {
     return std::clamp(-trial.start_slope / rise, min_shortening, max_shortening);
 }
 
-LineResult search_line(StageEquations& equations, const TimeError& error, bool stop_at_contacts) {
-    const ImplicitStage& stage = equations.stage();
-    NewtonSpace& space = equations.space();
-    const bool was_arrived = equations.arrived();
-    LineResult result;
-    equations.aim(1.0);
-    const NewtonChange change = change_to(equations, space.trial.velocities);
-    const double error_ratio = allowed_error_ratio(stage.scene.settings);
-    result.small =
-        space.bodies.mark(stage.scene.model, [&](const Body& body) { return change_is_small(error, change, error_ratio, body); });
-    const bool rounding = result.small && was_arrived && moves_nothing(equations);
-    LineTrial line = line_from(equations, result.small);
-    double fraction = 1.0, kept = 1.0;
-    bool accepted = false;
-    for (int trial = 0; trial < max_line_trials; ++trial) {
-        if (trial > 0) equations.aim(fraction);
-        kept = equations.cut();
-        evaluate_trial(equations, line);
-        line.objective_known =
-            !space.springs.velocity_damping && space.current.constraints.size() + space.trial.constraints.size() == 0;
-        // While pins or obstacles are on their way, the objective may have to rise.
-        accepted = !stage.options.line_search || !was_arrived || accept_trial(fraction * kept, line);
-        if (accepted) break;
-        result.met_contacts = trial == 0 && stop_at_contacts && kept == 1.0 && meets_contacts(equations, line);
-        if (result.met_contacts) return result;
-        fraction *= kept * shorten(line);
-        ++result.backtracks;
-    }
-    std::swap(space.current, space.trial);
-    result.full_step = fraction * kept == 1.0 && was_arrived;
-    result.stuck = rounding || (!accepted && was_arrived && is_flat(line));
-    if (accepted && result.full_step && !result.small) result.went_on = go_on(equations, line);
-    return result;
+LineResult search_line(StageEquations& equations, const LineTask& task, StagePoint& current, StagePoint& trial) {
+    return Line(equations, task, current, trial).search();
 }
 
 }  // namespace percale

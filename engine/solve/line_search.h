@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "body_states.h"
+#include "contact/trial_contacts.h"
 #include "newton_stop.h"
 #include "stage_equations.h"
 
@@ -27,19 +29,28 @@ bool accept_trial(double fraction, const LineTrial& trial);
 /// The factor for the next trial: the zero of the slope by the secant, kept within 0.15 ... 0.6.
 double shorten(const LineTrial& trial);
 
-/// The result of a search along a direction; space.current is its end point.
+/// A search along a direction.
+struct LineTask {
+    const TimeError& error;
+    const Vec3Arrays& direction;  // m/s
+    BodyStates& bodies;           // marked: whether the direction changes them by little
+    /// Not null: the search may make no move (LineResult::met_contacts), and then finds the trial contacts, so that another
+    /// direction can be computed.
+    TrialContacts* trial_contacts = nullptr;
+};
+
 struct LineResult {
     bool small = false;         // the whole direction changes each unsettled body by newton_error_ratio of its time error at most
     bool full_step = false;     // the whole direction was taken, with pins and obstacles already in place
     bool stuck = false;         // the decrease predicted along it, or the move, is at the level of rounding: counts as converged
     bool went_on = false;       // a step prolonged by the secant was evaluated, accepted or not
     int backtracks = 0;         // shortened trials
-    bool met_contacts = false;  // no move: the whole of it ends in trial contacts that were in no matrix, now in the work space
+    bool met_contacts = false;  // no move: the whole of it ends in trial contacts that were in no matrix
 };
 
-/// Moves from space.current along space.direction: a full step, clamped where something would cross and shortened until
-/// accept_trial agrees; prolonged by the secant where the slope has hardly fallen. After max_line_trials trials the last one is
-/// taken. With `stop_at_contacts` it may make no move (LineResult::met_contacts), so that another direction can be computed.
-LineResult search_line(StageEquations& equations, const TimeError& error, bool stop_at_contacts = false);
+/// Moves `current` along a direction: a full step, clamped where something would cross and shortened until accept_trial agrees;
+/// prolonged by the secant where the slope has hardly fallen. After max_line_trials trials the last one is taken. `trial`: work
+/// space.
+LineResult search_line(StageEquations& equations, const LineTask& task, StagePoint& current, StagePoint& trial);
 
 }  // namespace percale

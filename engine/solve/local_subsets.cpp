@@ -25,16 +25,14 @@ constexpr double subset_residual_ratio = 0.1;
 constexpr int max_subset_iterations = 8;
 
 /// Sets |r_i|^2/m_i of each vertex of bodies that are not settled, 0 of others; returns the sum.
-double set_squares(const StageEquations& equations, std::vector<double>& squares) {
-    const ClothModel& model = equations.stage().scene.model;
-    const NewtonSpace& space = equations.space();
+double set_squares(const ClothModel& model, const BodyStates& bodies, const Vec3Arrays& residual, std::vector<double>& squares) {
     squares.assign(model.vertex_count(), 0.0);
     double sum = 0.0;
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-        if (space.bodies.settled(b)) continue;
+        if (bodies.settled(b)) continue;
         const Body& body = model.bodies[b];
         for (int i = body.first; i < body.first + body.count; ++i) {
-            squares[i] = square_at(space.current.residual, i) / model.mass[i];
+            squares[i] = square_at(residual, i) / model.mass[i];
             sum += squares[i];
         }
     }
@@ -78,43 +76,41 @@ void add_neighbours(const StepScene& scene, SubsetSpace& space) {
     std::sort(space.vertices.begin(), space.vertices.end());
 }
 
-double residual_of_subsets(const StageEquations& equations) {
-    const ClothModel& model = equations.stage().scene.model;
+double residual_of(const std::vector<int>& vertices, const ClothModel& model, const Vec3Arrays& residual) {
     double sum = 0.0;
-    for (const int v : equations.space().subsets.vertices) {
-        sum += square_at(equations.space().current.residual, v) / model.mass[v];
-    }
+    for (const int v : vertices) sum += square_at(residual, v) / model.mass[v];
     return std::sqrt(sum);
 }
 
 /// Solves A dv = -r on the subset; dv is 0 elsewhere.
-void set_subset_direction(const StageEquations& equations) {
-    NewtonSpace& space = equations.space();
-    const StagePoint& current = space.current;
-    SubsetSpace& subsets = space.subsets;
+void set_subset_direction(const StageEquations& equations, const StagePoint& point, const SubsetTask& task, SubsetSpace& space) {
+    NewtonSystem& system = task.system;
     {
         StageTimer timer(equations.times().setup);
-        fill_matrix(current.forces.spring_terms, current.contact.blocks, current.forces.blocks, space.solver.matrix);
-        subsets.system.fill(space.solver.matrix, subsets.vertices);
+        fill_matrix(point.forces.spring_terms, point.contact.blocks, point.forces.blocks, system.solver.matrix);
+        space.system.fill(system.solver.matrix, space.vertices);
     }
     StageTimer timer(equations.times().solve);
-    set_zero(equations.stage().scene.compute, space.direction, equations.stage().scene.model.vertex_count());
-    for (const int v : subsets.vertices) space.right_side.set(v, -current.residual.at(v));
-    subsets.system.solve(space.right_side, subset_linear_ratio, space.direction);
+    Vec3Arrays& direction = task.direction.velocity;
+    set_zero(equations.stage().scene.compute, direction, equations.stage().scene.model.vertex_count());
+    for (const int v : space.vertices) system.right_side.set(v, -point.residual.at(v));
+    space.system.solve(system.right_side, subset_linear_ratio, direction);
 }
 
 }  // namespace
 
-bool solve_subsets(StageEquations& equations, const TimeError& error) {
-    NewtonSpace& space = equations.space();
-    if (!equations.arrived() || space.current.constraints.size() == 0 || !space.current.forces.blocks.loads.empty()) return false;
-    const double sum = set_squares(equations, space.subsets.squares);
-    if (!choose_vertices(sum, space.subsets)) return false;
-    add_neighbours(equations.stage().scene, space.subsets);
-    const double enough = subset_residual_ratio * residual_of_subsets(equations);
-    for (int n = 0; n < max_subset_iterations && residual_of_subsets(equations) > enough && !is_past(space.time.deadline); ++n) {
-        set_subset_direction(equations);
-        const LineResult line = search_line(equations, error);
+bool solve_subsets(StageEquations& equations, const SubsetTask& task, SubsetSpace& space, StagePoint& current,
+                   StagePoint& trial) {
+    const ClothModel& model = equations.stage().scene.model;
+    if (!equations.arrived(current) || current.constraints.size() == 0 || !current.forces.blocks.loads.empty()) return false;
+    const double sum = set_squares(model, task.bodies, current.residual, space.squares);
+    if (!choose_vertices(sum, space)) return false;
+    add_neighbours(equations.stage().scene, space);
+    const auto residual = [&] { return residual_of(space.vertices, model, current.residual); };
+    const double enough = subset_residual_ratio * residual();
+    for (int n = 0; n < max_subset_iterations && residual() > enough && !is_past(task.time.deadline); ++n) {
+        set_subset_direction(equations, current, task, space);
+        const LineResult line = search_line(equations, {task.error, task.direction.velocity, task.bodies}, current, trial);
         if (line.stuck || line.backtracks == max_line_trials) break;
     }
     return true;

@@ -1,7 +1,12 @@
 #pragma once
 
+#include <limits>
+
+#include "direction.h"
 #include "implicit_stage.h"
 #include "percale/report.h"
+#include "subset_space.h"
+#include "support/deadline.h"
 
 namespace percale {
 
@@ -29,6 +34,20 @@ struct NewtonReport {
 struct StageEnd {
     ClothState& cloth;
     ContactWarmStart& contact;
+};
+
+/// Work space of solves, kept from step to step so that nothing is allocated once sizes are known. Only the solver chosen last
+/// (StepSolver::choice) has an influence on later stages.
+struct NewtonSpace {
+    StageSpace stage;
+    NewtonSystem system;
+    StagePoint current, trial;                              // the point that the search has reached, and one ahead of it
+    Direction direction, direction_with_trials;             // from it, without and with trial contacts
+    TrialContacts trial_contacts;                           // of the last move that a line search rejected
+    BodyStates bodies;                                      // in the rounds of contact correction
+    SubsetSpace subsets;                                    // of the last iteration that looked for one
+    int iterations_left = std::numeric_limits<int>::max();  // of StepSettings::work_limit, for one stage
+    TimeBudget time;                                        // the rest of the step's
 };
 
 /// Solves one stage from stage.start by Newton's method with the matrix of linear/block_matrix.h, which sums all terms, a linear

@@ -78,11 +78,6 @@ TimeError time_error_of(const ImplicitStage& stage) {
     return error;
 }
 
-NewtonChange change_to(const StageEquations& equations, const Vec3Arrays& ahead) {
-    const StagePoint& point = equations.space().current;
-    return {point.residual, equations.space().direction, ahead, point.constraints.size() > 0};
-}
-
 bool change_is_small(const TimeError& error, const NewtonChange& change, double error_ratio, const Body& body) {
     const ClothModel& model = *error.model;
     const auto first = model.cloths.begin() + cloth_of(model, body.first);

@@ -38,9 +38,6 @@ struct NewtonChange {
     bool in_contact = false;
 };
 
-/// The direction in the work space, which leads from space.current to the velocities `ahead`.
-NewtonChange change_to(const StageEquations& equations, const Vec3Arrays& ahead);
-
 /// Whether the direction changes every cloth of a body, of the mass m, by little in the mean and at its worst vertex:
 ///     dt sqrt(-r . dv/m) <= error_ratio dt/2 |v - v_n|_M/sqrt(m) + floor,
 ///     dt max|dv| <= 2 error_ratio dt max|v - v_n| + 10 floor,

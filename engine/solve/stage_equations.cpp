@@ -23,28 +23,16 @@ void shorten(const Compute& compute, const Vec3Arrays& from, double fraction, Ve
 
 }  // namespace
 
-StageEquations::StageEquations(const ImplicitStage& stage, const ContactWarmStart& warm_start, NewtonSpace& space,
-                               StageTimes& times)
+StageEquations::StageEquations(const ImplicitStage& stage, const ContactWarmStart& warm_start, StageSpace& space,
+                               const BlockMatrix& matrix, StageTimes& times)
     : stage_(stage),
       space_(space),
+      matrix_(matrix),
       times_(times),
       law_(space.law(stage.scene.settings.contact_response)),
       contact_dt_(stage.base.h * std::sqrt(stage.contact_weight)) {
     const StepScene& scene = stage.scene;
-    StagePoint& current = space.current;
-    copy(scene.compute, stage.start.positions, current.positions);
-    copy(scene.compute, stage.start.velocities, current.velocities);
-    if (scene.plan.contacts) {
-        current.points = stage.start.points;
-        space.trial.points.resize(current.points.size());
-    }
-    current.fraction = stage.moves_are_scripted() ? stage.substep.from : stage.substep.to;
-    space.frozen_diagonal.padded = 0;
-    if (!space.solver.is_for(scene.model)) space.solver.set_model(scene.compute, scene.model, scene.settings.linear_solver);
-    space.solver.matrix.free = scene.script.free;
-    space.solver.start_stage();
     if (scene.plan.contacts) law_.begin(warm_start);
-    for (auto* vectors : {&space.direction, &space.right_side}) set_zero(scene.compute, *vectors, scene.model.vertex_count());
     space.friction = {.positions = &stage.start.positions,
                       .fraction = stage.substep.from,
                       .stick_anchors = stage.start.stick_anchors,
@@ -56,60 +44,72 @@ StageEquations::StageEquations(const ImplicitStage& stage, const ContactWarmStar
         space.springs);
 }
 
-void StageEquations::predict() {
+void StageEquations::set_start(StagePoint& point) const {
     const StepScene& scene = stage_.scene;
-    StagePoint& current = space_.current;
-    const double h = stage_.base.h, rate = 1.0 / h;
-    // Velocities along the path are (q - q*)/h: what a clamp takes from the move is not stored as energy.
-    set_each(scene.compute, stage_.start.positions, stage_.base.positions, current.velocities,
-             [rate](double start, double base) { return rate * start - rate * base; });
-    set_each(scene.compute, stage_.start.velocities, current.velocities, space_.direction,
-             [](double start, double now) { return start - now; });
-    for (int i = 0; i < scene.model.vertex_count(); ++i) {
-        if (scene.is_free(i)) continue;
-        space_.direction.set(i, (stage_.targets.at(i) - stage_.base.positions.at(i)) / h - current.velocities.at(i));
-    }
-    aim(1.0);
-    if (scene.plan.contacts) {
-        StageTimer timer(times_.refresh);
-        scene.detector->update_candidates(current.points, space_.trial.points);
-    }
-    cut();
-    std::swap(space_.current, space_.trial);
+    copy(scene.compute, stage_.start.positions, point.positions);
+    copy(scene.compute, stage_.start.velocities, point.velocities);
+    if (scene.plan.contacts) point.points = stage_.start.points;
+    point.fraction = stage_.moves_are_scripted() ? stage_.substep.from : stage_.substep.to;
 }
 
-void StageEquations::aim(double factor) {
-    StagePoint& trial = space_.trial;
-    set_each(stage_.scene.compute, space_.current.velocities, space_.direction, trial.velocities,
+/// The direction of the first move, m/s. Velocities of the start become (q - q*)/h: what a clamp takes from the move is not
+/// stored as energy.
+void StageEquations::set_prediction(StagePoint& start, Vec3Arrays& direction) const {
+    const StepScene& scene = stage_.scene;
+    set_zero(scene.compute, direction, scene.model.vertex_count());
+    const double h = stage_.base.h, rate = 1.0 / h;
+    set_each(scene.compute, stage_.start.positions, stage_.base.positions, start.velocities,
+             [rate](double q, double base) { return rate * q - rate * base; });
+    set_each(scene.compute, stage_.start.velocities, start.velocities, direction, [](double v, double now) { return v - now; });
+    for (int i = 0; i < scene.model.vertex_count(); ++i) {
+        if (scene.is_free(i)) continue;
+        direction.set(i, (stage_.targets.at(i) - stage_.base.positions.at(i)) / h - start.velocities.at(i));
+    }
+}
+
+void StageEquations::begin(StagePoint& point, StagePoint& trial, Vec3Arrays& direction) {
+    set_start(point);
+    if (!stage_.options.predict) return;
+    set_prediction(point, direction);
+    move(point, direction, 1.0, trial);
+    if (stage_.scene.plan.contacts) {
+        StageTimer timer(times_.refresh);
+        stage_.scene.detector->update_candidates(point.points, trial.points);
+    }
+    clamp(point, trial);
+    std::swap(point, trial);
+}
+
+void StageEquations::move(const StagePoint& from, const Vec3Arrays& direction, double factor, StagePoint& to) const {
+    set_each(stage_.scene.compute, from.velocities, direction, to.velocities,
              [factor](double v, double dv) { return v + factor * dv; });
-    place(trial);
-    const double reached = space_.current.fraction;
-    trial.fraction = factor == 1.0 ? stage_.substep.to : reached + factor * (stage_.substep.to - reached);
+    place(to);
+    to.fraction = factor == 1.0 ? stage_.substep.to : from.fraction + factor * (stage_.substep.to - from.fraction);
 }
 
 void StageEquations::place(StagePoint& point) const {
     const Compute& compute = stage_.scene.compute;
     const double h = stage_.base.h;
     set_each(compute, stage_.base.positions, point.velocities, point.positions, [h](double q, double v) { return q + h * v; });
-    if (stage_.scene.plan.contacts) copy_out(compute, point.positions, point.points);
+    if (!stage_.scene.plan.contacts) return;
+    point.points.resize(stage_.start.points.size());
+    copy_out(compute, point.positions, point.points);
 }
 
-double StageEquations::cut() {
+double StageEquations::clamp(const StagePoint& from, StagePoint& to) {
     if (!stage_.scene.plan.contacts) return 1.0;
     StageTimer timer(times_.cut);
-    const StagePoint& current = space_.current;
-    StagePoint& trial = space_.trial;
-    const StepFraction substep{current.fraction, trial.fraction};
-    const double kept = stage_.scene.detector->collision_free_step_size(current.points, trial.points, substep);
+    const StepFraction substep{from.fraction, to.fraction};
+    const double kept = stage_.scene.detector->collision_free_step_size(from.points, to.points, substep);
     smallest_fraction_ = std::min(smallest_fraction_, kept);
     if (kept >= 1.0) return 1.0;
-    shorten(stage_.scene.compute, current.velocities, kept, trial.velocities);
-    place(trial);
-    if (stage_.moves_are_scripted()) trial.fraction = current.fraction + kept * (substep.to - substep.from);
+    shorten(stage_.scene.compute, from.velocities, kept, to.velocities);
+    place(to);
+    if (stage_.moves_are_scripted()) to.fraction = from.fraction + kept * (substep.to - substep.from);
     return kept;
 }
 
-void StageEquations::evaluate(StagePoint& point) {
+void StageEquations::evaluate(StagePoint& point, const StagePoint* accepted) {
     const StepScene& scene = stage_.scene;
     if (scene.plan.contacts) {
         StageTimer timer(times_.evaluate);
@@ -127,7 +127,7 @@ void StageEquations::evaluate(StagePoint& point) {
                      .with_matrix = true},
                     point.forces);
     if (scene.plan.contacts) {
-        add_contact(point);
+        add_contact(point, accepted);
     } else {  // terms of a scene that had contact before
         point.constraints.clear();
         point.constraint_forces.clear();
@@ -136,20 +136,22 @@ void StageEquations::evaluate(StagePoint& point) {
     set_residual(point);
 }
 
-void StageEquations::add_contact(StagePoint& point) {
-    const bool first = space_.frozen_diagonal.padded == 0;
-    if (first) {
-        fill_diagonal(space_.solver.matrix, point.forces.spring_terms, space_.frozen_diagonal, space_.frozen_inverse);
-        space_.frozen_load = point.forces.total;
-        law_.set_constraints(point.constraints);
-    }
+/// Sets the stiffness of contact by the forces without it.
+void StageEquations::freeze(const StagePoint& point) {
+    fill_diagonal(matrix_, point.forces.spring_terms, space_.frozen.diagonal, space_.frozen.inverse);
+    space_.frozen.load = point.forces.total;
+    law_.set_constraints(point.constraints);
+}
+
+void StageEquations::add_contact(StagePoint& point, const StagePoint* accepted) {
+    if (!accepted) freeze(point);
     weigh(stage_.scene.compute, 1.0 / stage_.contact_weight, point.forces);
-    law_.evaluate(contact_point(point, first), contact_forces(point));
+    law_.evaluate(contact_point(point, accepted), contact_forces(point));
     weigh(stage_.scene.compute, stage_.contact_weight, point.forces);
     largest_stiffness_ = std::max(largest_stiffness_, point.contact.largest_stiffness);
 }
 
-ContactPoint StageEquations::contact_point(const StagePoint& point, bool first) const {
+ContactPoint StageEquations::contact_point(const StagePoint& point, const StagePoint* accepted) const {
     const StepScene& scene = stage_.scene;
     return {.constraints = point.constraints,
             .positions = point.positions,
@@ -160,10 +162,10 @@ ContactPoint StageEquations::contact_point(const StagePoint& point, bool first) 
                      .fraction = point.fraction,
                      .gravity = scene.settings.gravity,
                      .mass = &scene.model.mass,
-                     .diagonal = &space_.frozen_diagonal,
-                     .load = &space_.frozen_load,
+                     .diagonal = &space_.frozen.diagonal,
+                     .load = &space_.frozen.load,
                      .friction = &space_.friction,
-                     .previous = first ? nullptr : &space_.current.contact.friction_contacts},
+                     .previous = accepted ? &accepted->contact.friction_contacts : nullptr},
             .obstacles_moved = point.fraction - stage_.substep.from};
 }
 
@@ -171,18 +173,16 @@ ContactForces StageEquations::contact_forces(StagePoint& point) {
     return {point.forces.total, point.forces.potential, point.contact, point.constraint_forces};
 }
 
-bool StageEquations::correct_contact(double enough) {
-    StagePoint& point = space_.current;
+bool StageEquations::correct_contact(StagePoint& point, double enough) {
     if (!stage_.scene.plan.contacts || point.constraints.size() == 0) return false;
     StageTimer timer(times_.force);
-    if (!law_.correct(contact_point(point, false), contact_forces(point), enough)) return false;
+    if (!law_.correct(contact_point(point, &point), contact_forces(point), enough)) return false;
     set_residual(point);
     return true;
 }
 
-void StageEquations::end_contact(ContactWarmStart& warm_start) const {
-    if (stage_.scene.plan.contacts)
-        law_.end(space_.current.constraints, space_.current.contact, space_.current.constraint_forces, warm_start);
+void StageEquations::end_contact(const StagePoint& point, ContactWarmStart& warm_start) const {
+    if (stage_.scene.plan.contacts) law_.end(point.constraints, point.contact, point.constraint_forces, warm_start);
 }
 
 void StageEquations::set_residual(StagePoint& point) const {

@@ -1,51 +1,61 @@
 #pragma once
 
 #include "implicit_stage.h"
+#include "linear/block_matrix.h"
 #include "percale/report.h"
 
 namespace percale {
 
 /// The equations of one stage: positions from velocities, the part of a move that is free of crossing, forces, residual and
-/// objective. Views the stage and its work space.
+/// objective. Points of the search are values that callers hold.
 class StageEquations {
 public:
-    /// Begins the stage with springs, friction and contact. `space.current` is the start.
-    StageEquations(const ImplicitStage& stage, const ContactWarmStart& warm_start, NewtonSpace& space, StageTimes& times);
+    /// Begins the stage with springs, friction and contact. Views all; `matrix` has the pattern and the masses of the model.
+    StageEquations(const ImplicitStage& stage, const ContactWarmStart& warm_start, StageSpace& space, const BlockMatrix& matrix,
+                   StageTimes& times);
 
-    /// Moves `space.current` along q* + h v_n (without gravity, which would press into contact, and friction would then freeze
-    /// everything), prescribed vertices and obstacles to their ends, clamped where something would cross. Evaluates nothing.
-    void predict();
+    /// The first point of the search: the start of the stage moves on along q* + h v_n (without gravity, which would press into
+    /// contact, and friction would then freeze everything), prescribed vertices and obstacles to their ends, clamped where
+    /// something would cross. The detector learns where this move leads. Evaluates nothing; `trial` and `direction`: work space.
+    void begin(StagePoint& point, StagePoint& trial, Vec3Arrays& direction);
 
-    /// space.trial = current + factor * direction, m/s, clamped to what the detector proves free of crossing. Returns the
-    /// fraction of the move that was kept.
-    void aim(double factor);
-    double cut();
+    /// to = from + factor * direction, m/s, with pins and obstacles at that fraction of what is left of their motion.
+    void move(const StagePoint& from, const Vec3Arrays& direction, double factor, StagePoint& to) const;
+    /// Shortens a move to what the detector proves free of crossing; returns the fraction of it that was kept.
+    double clamp(const StagePoint& from, StagePoint& to);
 
-    /// Computes all forces at a point, its residual and its objective.
-    void evaluate(StagePoint& point);
+    /// Computes all forces at a point, its residual and its objective. `accepted`: the last accepted point; null: this is the
+    /// first evaluation of the stage, by which contact sets its stiffness.
+    void evaluate(StagePoint& point, const StagePoint* accepted);
 
-    /// The motion is solved: contact updates what it holds fixed; false if nothing is left to be solved.
-    bool correct_contact(double enough);
+    /// The motion is solved at a point: contact updates what it holds fixed, and the forces there; false if nothing is left to
+    /// be solved.
+    bool correct_contact(StagePoint& point, double enough);
 
-    /// The substep ends at `space.current`.
-    void end_contact(ContactWarmStart& warm_start) const;
+    /// The stage ends at a point.
+    void end_contact(const StagePoint& point, ContactWarmStart& warm_start) const;
 
-    bool arrived() const { return space_.current.fraction >= stage_.substep.to; }
+    /// Whether pins and obstacles are at the end of their motion there.
+    bool arrived(const StagePoint& point) const { return point.fraction >= stage_.substep.to; }
+    bool damps_velocity() const { return space_.springs.velocity_damping; }
     const ImplicitStage& stage() const { return stage_; }
-    NewtonSpace& space() const { return space_; }
     StageTimes& times() const { return times_; }
     double smallest_fraction() const { return smallest_fraction_; }
     double largest_stiffness() const { return largest_stiffness_; }
 
 private:
+    void set_start(StagePoint& point) const;
+    void set_prediction(StagePoint& start, Vec3Arrays& direction) const;
     void place(StagePoint& point) const;
-    void add_contact(StagePoint& point);
+    void add_contact(StagePoint& point, const StagePoint* accepted);
+    void freeze(const StagePoint& point);
     void set_residual(StagePoint& point) const;
-    ContactPoint contact_point(const StagePoint& point, bool first) const;
+    ContactPoint contact_point(const StagePoint& point, const StagePoint* accepted) const;
     static ContactForces contact_forces(StagePoint& point);
 
     const ImplicitStage& stage_;
-    NewtonSpace& space_;
+    StageSpace& space_;
+    const BlockMatrix& matrix_;
     StageTimes& times_;
     ContactLaw& law_;
     double contact_dt_ = 0.0;         // s, for which weighted contact has the form of a step's contact

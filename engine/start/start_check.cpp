@@ -107,7 +107,7 @@ void place_obstacles(World& world) {
         ObstacleState there = obstacle;
         there.end = there.start;
         there.end_shape = there.start_shape;
-        report_obstacle(there, static_cast<int>(k), *world.scene.detector);
+        there.pass_to(*world.scene.detector, static_cast<int>(k));
         obstacle.settled = true;
     }
 }

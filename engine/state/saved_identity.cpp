@@ -36,7 +36,7 @@ std::uint64_t obstacles_hash(const World& world) {
     StateWriter writer;
     writer(world.scene.detector != nullptr);
     for (const ObstacleState& obstacle : world.scene.script.obstacles)
-        writer(obstacle.triangles, obstacle.start.scale, obstacle.restitution, obstacle.compliant != nullptr);
+        writer(obstacle.triangles, obstacle.start.scale, obstacle.restitution, obstacle.compliance.mesh != nullptr);
     return checksum(writer.take());
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compliant/compliant_obstacle.h"
 #include "percale/error.h"
 #include "percale/options.h"
 #include "plan/planning.h"
@@ -10,7 +11,6 @@
 #include "saved_identity.h"
 #include "saved_parts.h"
 #include "state_seal.h"
-#include "step/compliant_obstacle.h"
 #include "support/hash.h"
 #include "tolerances.h"
 
@@ -34,8 +34,8 @@ SavedWorld state_of(const World& world, SavedSize& size) {
     saved.free = scene.script.free;
     saved.pin_targets = scene.script.pin_targets;
     for (const ObstacleState& o : scene.script.obstacles) {
-        saved.obstacles.push_back({o.start, o.end, o.settled, {}, {}, o.deflection, {}});
-        if (o.aim) saved.obstacles.back().aim = *o.aim;
+        saved.obstacles.push_back({o.start, o.end, o.settled, {}, {}, o.compliance.deflection, {}});
+        if (o.compliance.aim) saved.obstacles.back().aim = *o.compliance.aim;
         if (o.start_shape) saved.obstacles.back().start_shape = *o.start_shape;
         if (o.deforms()) saved.obstacles.back().end_shape = *o.end_shape;
     }
@@ -46,8 +46,8 @@ SavedWorld state_of(const World& world, SavedSize& size) {
     saved.loads = {world.load_source != LoadSource::nowhere, contact_loads(world)};
     saved.plan = scene.plan;
     saved.rest = world.rest;
-    saved.solver_is_set = world.work.newton.solver.is_for(scene.model);
-    saved.solver = world.work.newton.solver.choice();
+    saved.solver_is_set = world.work.newton.system.solver.is_for(scene.model);
+    saved.solver = world.work.newton.system.solver.choice();
     if (!scene.detector) return saved;
     StateWriter writer(with_room(size.detector));
     scene.detector->save(writer);
@@ -210,8 +210,8 @@ void put_shape(SavedObstacle&& saved, ObstacleState& obstacle) {
     const auto shared = [](std::vector<Vec3>& shape) { return std::make_shared<const std::vector<Vec3>>(std::move(shape)); };
     obstacle.start_shape = shared(saved.start_shape);
     obstacle.go_to(saved.end_shape.empty() ? obstacle.start_shape : shared(saved.end_shape));
-    obstacle.deflection = std::move(saved.deflection);
-    if (obstacle.compliant) obstacle.aim = shared(saved.aim);
+    obstacle.compliance.deflection = std::move(saved.deflection);
+    if (obstacle.compliance.mesh) obstacle.compliance.aim = shared(saved.aim);
 }
 
 void put_script(SavedWorld& saved, Script& script) {
@@ -239,7 +239,7 @@ void put_model(const SavedWorld& saved, ClothModel& model) {
 
 /// The solver's data on the structure of the model stay: no stage depends on them, and they are expensive.
 void put_solver(const SavedWorld& saved, const StepScene& scene, NewtonSpace& newton) {
-    StepSolver solver = std::move(newton.solver);
+    StepSolver solver = std::move(newton.system.solver);
     newton = NewtonSpace{};
     if (!saved.solver_is_set) {
         solver.forget_model();
@@ -247,7 +247,7 @@ void put_solver(const SavedWorld& saved, const StepScene& scene, NewtonSpace& ne
         solver.set_model(scene.compute, scene.model, scene.settings.linear_solver);
     }
     solver.go_on_from(saved.solver);
-    newton.solver = std::move(solver);
+    newton.system.solver = std::move(solver);
 }
 
 void put_state(SavedWorld& saved, World& world) {

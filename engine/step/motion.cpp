@@ -14,17 +14,12 @@ constexpr int jump_parts = 8;
 
 }  // namespace
 
-void report_obstacle(const ObstacleState& obstacle, int number, ContactDetector& detector) {
-    if (obstacle.start_shape) detector.deform_obstacle(number, *obstacle.start_shape, *obstacle.end_shape);
-    detector.move_obstacle(number, obstacle.start, obstacle.end);
-}
-
 void report_obstacles(StepScene& scene) {
     for (std::size_t k = 0; k < scene.script.obstacles.size(); ++k) {
         ObstacleState& obstacle = scene.script.obstacles[k];
         const bool stays = !obstacle.moves();
         if (stays && obstacle.settled && !scene.plan.still_obstacles) continue;
-        report_obstacle(obstacle, static_cast<int>(k), *scene.detector);
+        obstacle.pass_to(*scene.detector, static_cast<int>(k));
         obstacle.settled = stays;
     }
 }

@@ -5,9 +5,6 @@
 
 namespace percale {
 
-/// Passes to the detector where the obstacle of a number is at the ends of the coming step.
-void report_obstacle(const ObstacleState& obstacle, int number, ContactDetector& detector);
-
 /// Passes to the detector where obstacles are at the ends of the coming step, where it does not know it yet.
 void report_obstacles(StepScene& scene);
 

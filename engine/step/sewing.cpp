@@ -53,7 +53,7 @@ int sew(World& world, std::span<const Stitch> stitches, const SeamSettings& sett
     world.scene.model = std::move(model);
     add_rest_lengths(world.scene.model.springs, world.state.cloth.rest_length);
     world.scene.script.seams.push_back(std::move(seam));
-    world.work.newton.solver.forget_model();
+    world.work.newton.system.solver.forget_model();
     scene_changed(world);
     world.waiting = waiting_cloth(world.scene, world.state.time);
     world.changed = world.changed || settings.weld;  // the scheme must take welds

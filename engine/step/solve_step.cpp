@@ -201,9 +201,9 @@ StepState* stand_still(const StepScene& scene, const StepState& start, Workspace
 
 void begin_newton(const StepScene& scene, Workspace& work) {
     if (!scene.plan.implicit || scene.plan.keep_work_space) return;
-    const LinearSolver solver = work.newton.solver.in_use();
+    const LinearSolver solver = work.newton.system.solver.in_use();
     work.newton = NewtonSpace{};
-    work.newton.solver.begin_with(solver);
+    work.newton.system.solver.begin_with(solver);
 }
 
 }  // namespace
@@ -213,7 +213,7 @@ StepState* solve_step(const StepScene& scene, const StepState& start, Workspace&
     begin_newton(scene, work);
     StepCover cover(scene, start, work, report);
     StepState* end = scene.settings.adaptive ? cover.cover_adaptively() : cover.cover_whole();
-    if (scene.plan.implicit) report.linear_solver = work.newton.solver.in_use();
+    if (scene.plan.implicit) report.linear_solver = work.newton.system.solver.in_use();
     if (end && report.halvings > 0 && report.status == StepStatus::ok) report.status = StepStatus::halved;
     return end;
 }

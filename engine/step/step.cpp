@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "checks/checked_terms.h"
-#include "compliant_obstacle.h"
+#include "compliant/compliant_obstacle.h"
 #include "failure.h"
 #include "kinetic_damping.h"
 #include "measure.h"
@@ -77,7 +77,7 @@ StepReport step_once(World& world) {
     report_obstacles(scene);  // with their targets at the end of the step; nothing moves yet
     Pinches pinches;
     if (any_compliant(scene.script)) {
-        pinches = comply_with_cloth(world);
+        pinches = comply_with_cloth(scene, state.cloth);
         set_motion_of_step(scene, state.cloth, state.time);  // where deflections stay nothing may move
     }
     const StepMeasure measure(scene, state, report.energy.work);
@@ -142,13 +142,6 @@ void press_asleep(World& world) {
     const double dt = world.scene.settings.time_step;
     for (const ContactLoad& load : contact_loads(world))
         world.state.impulses[load.obstacle].take(load.cloth_point, dt * load.force());
-}
-
-/// Whether a compliant obstacle that closes on the cloth failed the step.
-bool complies_in_vain(const Script& script, const StepReport& report) {
-    if (report.status != StepStatus::obstacle_too_fast) return false;
-    const auto yields = [&](int number) { return number >= 0 && script.obstacles[static_cast<std::size_t>(number)].compliant; };
-    return yields(report.blocking_obstacle) || yields(report.second_obstacle);
 }
 
 /// Compliant surfaces see cloth only when they are near it: a failed step is made again in shorter parts.

@@ -10,10 +10,10 @@ namespace {
 
 /// The shape of an obstacle after a fraction of the step.
 Shape shape_after(double fraction, const ObstacleState& obstacle) {
-    const Shape& end = obstacle.compliant ? obstacle.aim : obstacle.end_shape;
+    const Shape& end = obstacle.compliance.mesh ? obstacle.compliance.aim : obstacle.end_shape;
     if (fraction == 1.0) return end;
     auto between = std::make_shared<std::vector<Vec3>>(*obstacle.start_shape);
-    for (std::size_t i = 0; i < obstacle.deflection.size(); ++i) (*between)[i] -= obstacle.deflection[i];
+    for (std::size_t i = 0; i < obstacle.compliance.deflection.size(); ++i) (*between)[i] -= obstacle.compliance.deflection[i];
     for (std::size_t i = 0; i < between->size(); ++i) (*between)[i] += fraction * ((*end)[i] - (*between)[i]);
     return between;
 }
@@ -35,7 +35,7 @@ public:
         for (std::size_t k = 0; k < obstacles_.size(); ++k) {
             const auto& [start, end] = std::pair(obstacles_[k].start, obstacles_[k].end);
             script.obstacles[k].end = fraction == 1.0 || start == end ? end : interpolate(start, end, fraction);
-            if (obstacles_[k].compliant)
+            if (obstacles_[k].compliance.mesh)
                 script.obstacles[k].aim_at(shape_after(fraction, obstacles_[k]));
             else if (obstacles_[k].deforms())
                 script.obstacles[k].end_shape = shape_after(fraction, obstacles_[k]);

@@ -85,7 +85,7 @@ void pass_cloth_to_detector(World& world) {
     const ClothModel& model = world.scene.model;
     if (!world.scene.detector) return;
     std::vector<double> activation_distance = model.thickness;
-    const double activation_ratio = world.work.newton.law(world.scene.settings.contact_response).activation_ratio();
+    const double activation_ratio = world.work.newton.stage.law(world.scene.settings.contact_response).activation_ratio();
     for (double& thickness : activation_distance) thickness *= activation_ratio;
     world.scene.detector->set_cloth(model.triangles, activation_distance);
     if (!cloth_meets_now(world)) return;

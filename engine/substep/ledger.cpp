@@ -125,7 +125,7 @@ void account_contact(const Substep& substep, const SubstepStates& states, const 
                      Workspace& work, StepEnergy& flows) {
     const StagePoint& last = work.newton.current;
     if (substep.scene.plan.scheme == Scheme::backward_euler) {
-        const ContactLoss loss = work.newton.law(substep.scene.settings.contact_response)
+        const ContactLoss loss = work.newton.stage.law(substep.scene.settings.contact_response)
                                      .loss({.constraints = last.constraints,
                                             .terms = last.contact,
                                             .constraint_forces = last.constraint_forces,

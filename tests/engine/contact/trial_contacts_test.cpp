@@ -1,6 +1,8 @@
 #include "engine/contact/trial_contacts.h"
 
-#include "engine/solve/direction.h"
+#include <memory>
+
+#include "tests/support/one_stage.h"
 #include "tests/support/plane_scenes.h"
 
 namespace percale::test::trial_contacts_test {
@@ -13,30 +15,30 @@ struct Landing {
     SolverScene scene;
     ContactWarmStart warm_start;
     std::unique_ptr<ImplicitStage> stage;
-    std::unique_ptr<StageEquations> equations;
+    std::unique_ptr<StageSearch> search;
 
     Landing(double height, const StepSettings& settings) : scene(sheet_on_plane(0.0, 0.0, height, settings)) {
         scene.before = scene.state;
         set_euler_base(scene.before, scene.settings.time_step, scene.base);
         stage = std::make_unique<ImplicitStage>(
             ImplicitStage{.scene = scene, .base = scene.base, .start = scene.before, .targets = scene.targets});
-        equations = std::make_unique<StageEquations>(*stage, warm_start, scene.newton, scene.stages);
-        equations->predict();
-        equations->evaluate(scene.newton.current);
+        search = std::make_unique<StageSearch>(*stage, warm_start, scene);
+        search->evaluate();
     }
     /// space.trial is a full step along the direction.
     void go(const Vec3& direction) {
-        scene.newton.direction.resize(scene.model.vertex_count());
-        for (int i = 0; i < scene.model.vertex_count(); ++i) scene.newton.direction.set(i, direction);
-        equations->aim(1.0);
-        equations->evaluate(scene.newton.trial);
+        Vec3Arrays& velocity = scene.newton.direction.velocity;
+        velocity.resize(scene.model.vertex_count());
+        for (int i = 0; i < scene.model.vertex_count(); ++i) velocity.set(i, direction);
+        search->go(1.0);
     }
     double find(TrialContacts& found) {
         const NewtonSpace& space = scene.newton;
         const StagePoint& trial = space.trial;
         return find_trial_contacts(
             space.current.contact.blocks,
-            {trial.constraints, trial.constraint_forces, space.current.positions, space.direction, stage->base.h}, found);
+            {trial.constraints, trial.constraint_forces, space.current.positions, space.direction.velocity, stage->base.h},
+            found);
     }
     double largest_residual() const {
         double largest = 0.0;
@@ -86,9 +88,9 @@ TEST_CASE("With trial contacts in the matrix one direction ends where they hold 
     NewtonSpace& space = landing.scene.newton;
     const SolveTarget exact{.relative_residual = 1e-12};
     const auto residual_after = [&](const TrialContacts* trial_contacts) {
-        newton_direction(*landing.equations, exact, trial_contacts);
-        landing.equations->aim(1.0);
-        landing.equations->evaluate(space.trial);
+        space.system.find_direction(landing.search->equations, space.current, {space.bodies, exact, trial_contacts},
+                                    space.direction);
+        landing.search->go(1.0);
         return landing.largest_residual();
     };
     const double passed_over = residual_after(nullptr);

@@ -20,19 +20,24 @@ SolverScene resting_sheet() {
     return scene;
 }
 
-/// The stage's prediction, then the current state of the search: changed by `change(i)`, m/s.
+/// The first point of the stage, changed by `change(i)`, m/s.
 template <class Change>
-StageEquations start_of(OneStage& one, const ImplicitStage& stage, const Change& change) {
-    StageEquations equations(stage, one.warm_start, one.scene.newton, one.scene.stages);
-    equations.predict();
-    NewtonSpace& space = one.scene.newton;
-    equations.evaluate(space.current);
+StageSearch start_of(OneStage& one, const ImplicitStage& stage, const Change& change) {
+    StageSearch search(stage, one.warm_start, one.scene);
+    search.evaluate();
+    NewtonSpace& space = search.space;
     space.bodies.start(stage.scene.model);
-    for (int i = 0; i < side * side; ++i) space.direction.set(i, change(i));
-    equations.aim(1.0);
-    equations.evaluate(space.trial);
+    for (int i = 0; i < side * side; ++i) space.direction.velocity.set(i, change(i));
+    search.go(1.0);
     std::swap(space.current, space.trial);
-    return equations;
+    return search;
+}
+
+bool relax(StageSearch& search) {
+    NewtonSpace& space = search.space;
+    const TimeError error = time_error_of(search.equations.stage());
+    return solve_subsets(search.equations, {error, space.bodies, space.system, space.direction, space.time}, space.subsets,
+                         space.current, space.trial);
 }
 
 Vec3 shove_middle(int i) { return i == middle ? Vec3(0.3, -0.05, 0.0) : Vec3(Vec3::Zero()); }
@@ -54,10 +59,10 @@ std::vector<int> all_vertices() {
 TEST_CASE("The residual of a few vertices is solved with all others held") {
     OneStage one(resting_sheet());
     const ImplicitStage stage = one.stage();
-    StageEquations equations = start_of(one, stage, shove_middle);
+    StageSearch search = start_of(one, stage, shove_middle);
     const Vec3Arrays before = one.scene.newton.current.positions;
     const double square = residual_square(one.scene, all_vertices());
-    REQUIRE(solve_subsets(equations, time_error_of(stage)));
+    REQUIRE(relax(search));
     const std::vector<int>& subset = one.scene.newton.subsets.vertices;
     CHECK(subset.size() < 60);
     CHECK(std::count(subset.begin(), subset.end(), middle) == 1);
@@ -72,8 +77,8 @@ TEST_CASE("Prescribed vertices beside a subset do not belong to it") {
     OneStage one(resting_sheet());
     one.scene.pin(middle + 1);
     const ImplicitStage stage = one.stage();
-    StageEquations equations = start_of(one, stage, shove_middle);
-    REQUIRE(solve_subsets(equations, time_error_of(stage)));
+    StageSearch search = start_of(one, stage, shove_middle);
+    REQUIRE(relax(search));
     const std::vector<int>& subset = one.scene.newton.subsets.vertices;
     CHECK(std::count(subset.begin(), subset.end(), middle - 1) == 1);
     CHECK(std::count(subset.begin(), subset.end(), middle + 1) == 0);
@@ -82,12 +87,12 @@ TEST_CASE("Prescribed vertices beside a subset do not belong to it") {
 TEST_CASE("Settled bodies are ignored") {
     OneStage one(resting_sheet());
     const ImplicitStage stage = one.stage();
-    StageEquations equations = start_of(one, stage, shove_middle);
+    StageSearch search = start_of(one, stage, shove_middle);
     one.scene.newton.bodies.mark(stage.scene.model, [](const Body&) { return true; });
     one.scene.newton.bodies.settle_small();
-    CHECK_FALSE(solve_subsets(equations, time_error_of(stage)));
+    CHECK_FALSE(relax(search));
     one.scene.newton.bodies.start(stage.scene.model);
-    CHECK(solve_subsets(equations, time_error_of(stage)));
+    CHECK(relax(search));
 }
 
 TEST_CASE("Nothing is done where the residual is spread") {
@@ -95,19 +100,19 @@ TEST_CASE("Nothing is done where the residual is spread") {
     const ImplicitStage stage = one.stage();
     Random random(3);
     const auto shake = [&](int) { return Vec3(random.number(-0.1, 0.1), 0.0, random.number(-0.1, 0.1)); };
-    StageEquations equations = start_of(one, stage, shake);
+    StageSearch search = start_of(one, stage, shake);
     const Vec3Arrays before = one.scene.newton.current.positions;
     REQUIRE(one.scene.newton.current.constraints.size() > 0);
-    CHECK_FALSE(solve_subsets(equations, time_error_of(stage)));
+    CHECK_FALSE(relax(search));
     for (int i = 0; i < side * side; ++i) REQUIRE(one.scene.newton.current.positions.at(i) == before.at(i));
 }
 
 TEST_CASE("Nothing is done without contact") {
     OneStage one(resting_sheet());
     const ImplicitStage stage = one.stage();
-    StageEquations equations = start_of(one, stage, shove_middle);
+    StageSearch search = start_of(one, stage, shove_middle);
     one.scene.newton.current.constraints.clear();
-    CHECK_FALSE(solve_subsets(equations, time_error_of(stage)));
+    CHECK_FALSE(relax(search));
 }
 
 TEST_CASE("Solves look for subsets from their ninth iteration on, shorter ones never") {

@@ -26,10 +26,9 @@ TEST_CASE("The prediction continues with the old velocities, prescribed vertices
     scene.plan.pins_move = true;
     scene.targets.set(3, scene.before.positions.at(3) + Vec3(0.0, 0.01, 0.0));
     const ImplicitStage stage = one.stage();
-    StageEquations equations(stage, one.warm_start, scene.newton, scene.stages);
-    CHECK_FALSE(equations.arrived());
-    equations.predict();
-    CHECK(equations.arrived());
+    const StageSearch search(stage, one.warm_start, scene);
+    CHECK_FALSE(search.equations.arrived(scene.newton.trial));  // the start
+    CHECK(search.equations.arrived(scene.newton.current));
     const double dt = scene.settings.time_step;
     for (int i = 0; i < 25; ++i) {
         const Vec3 end = i == 3 ? scene.targets.at(3) : Vec3(scene.before.positions.at(i) + dt * scene.before.velocities.at(i));
@@ -42,15 +41,13 @@ TEST_CASE("A residual is the gradient of the objective, 0 where vertices are pre
     one.scene.pin(7);
     const ImplicitStage stage = one.stage();
     NewtonSpace& space = one.scene.newton;
-    StageEquations equations(stage, one.warm_start, space, one.scene.stages);
-    equations.predict();
-    equations.evaluate(space.current);
+    StageSearch search(stage, one.warm_start, one.scene);
+    search.evaluate();
     CHECK(space.current.residual.at(7) == Vec3::Zero());
     const auto objective = [&](int vertex, const Vec3& change) {
-        space.direction.resize(25);
-        space.direction.set(vertex, change);
-        equations.aim(1.0);
-        equations.evaluate(space.trial);
+        space.direction.velocity.resize(25);
+        space.direction.velocity.set(vertex, change);
+        search.go(1.0);
         return space.trial.objective;
     };
     for (const int vertex : {0, 6, 12, 24}) {
@@ -67,9 +64,8 @@ TEST_CASE("A move is clamped before it crosses, and velocities with it") {
     for (int i = 0; i < 16; ++i) one.scene.before.velocities.set(i, Vec3(0.0, -10.0, 0.0));
     const ImplicitStage stage = one.stage();
     NewtonSpace& space = one.scene.newton;
-    StageEquations equations(stage, one.warm_start, space, one.scene.stages);
-    equations.predict();
-    const double kept = equations.smallest_fraction();
+    const StageSearch search(stage, one.warm_start, one.scene);
+    const double kept = search.equations.smallest_fraction();
     CHECK(kept > 0.1);
     CHECK(kept < 0.05 * 60.0 / 10.0);
     for (int i = 0; i < 16; ++i) {

@@ -1,4 +1,4 @@
-#include "engine/step/compliant_obstacle.h"
+#include "engine/compliant/compliant_obstacle.h"
 
 #include "percale/simulation.h"
 #include "tests/support/catch.h"
@@ -22,9 +22,9 @@ TEST_CASE("The largest deflection is measured in the world, and scripts report w
     script.obstacles.resize(2);
     CHECK_FALSE(any_compliant(script));
     CHECK(largest_deflection(script) == 0.0);
-    script.obstacles[1].compliant = std::make_shared<CompliantMesh>();
+    script.obstacles[1].compliance.mesh = std::make_shared<CompliantMesh>();
     script.obstacles[1].end.scale = 2.0;
-    script.obstacles[1].deflection = {{0, 0, 0}, {0.3, 0.4, 0}};
+    script.obstacles[1].compliance.deflection = {{0, 0, 0}, {0.3, 0.4, 0}};
     CHECK(any_compliant(script));
     CHECK(largest_deflection(script) == Approx(1.0));
 }

@@ -1,26 +1,17 @@
 #include "compliant_obstacle.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <numeric>
 
-#include "motion.h"
-#include "tolerances.h"
+#include "pinch.h"
 
 namespace percale {
 namespace {
 
-/// Surfaces give way from this fraction of the room that two activation distances have, at which the cloth between them begins
-/// to be pressed. Larger: they give way before the contacts that show the pinch exist. Smaller: cloth is pressed hard.
-constexpr double kept_room = 0.6;
-
-/// h of room more than is kept that deflections leave unused, and h by which they return in a step. Slack 0: deflections go back
-/// and forth for ever. Larger: they stay larger than necessary. Return larger: where cloth is just out of contact they come too
-/// near, are pushed back, and tremble. Smaller: deflections last.
-constexpr double deflection_slack = 0.2, deflection_return = 0.25;
+/// h by which deflections return in a step. Larger: where cloth is just out of contact they come too near, are pushed back, and
+/// tremble. Smaller: deflections last.
+constexpr double deflection_return = 0.25;
 
 /// h. A deflection that would change by less, and cloth that moves by less in a step, is at rest. 0: no deflection rests.
 /// Larger: it stays where it should change.
@@ -34,103 +25,8 @@ constexpr double deflection_thicknesses = 4.0, deflection_edges = 2.0;
 /// Smaller: more steps until there is room. Larger: more room than is kept.
 constexpr double beyond_press = 1.2;
 
-/// Weight in a contact from which it presses a vertex, and fraction of a retreat below which a vertex has not moved. Larger:
-/// pairs that pinch are not seen. Smaller: places that hardly matter count.
-constexpr double min_pressing_weight = 0.05, min_deflection_ratio = 0.1;
-
-/// Passes over contacts between cloths; each sees through at least one layer. Fewer: thick bundles are pinched unseen.
-constexpr int compliant_passes = 3;
-
-/// A point of an obstacle that presses a vertex of cloth.
-struct Presser {
-    std::size_t constraint;                // in which a point of an obstacle presses
-    Vec3 direction;                        // from that point to the cloth
-    double distance, activation_distance;  // m, along cloth in between: its distance, and where contact would begin
-};
-using Pressers = std::map<int, std::vector<Presser>>;  // of each vertex
-
-void add(Pressers& pressers, int vertex, const Presser& more) {
-    std::vector<Presser>& here = pressers[vertex];
-    const auto known = std::ranges::find_if(here, [&](const Presser& one) { return one.constraint == more.constraint; });
-    if (known == here.end())
-        here.push_back(more);
-    else if (more.distance < known->distance)
-        *known = more;
-}
-
-template <class Work>
-void for_each_vertex(const ContactConstraints& constraints, std::size_t constraint, double sign, Work work) {
-    for (int k = 0; k < 4 && constraints.vertex[constraint][k] >= 0; ++k) {
-        if (sign * constraints.weight[constraint][k] > min_pressing_weight) work(constraints.vertex[constraint][k]);
-    }
-}
-
-/// Passes the pressers through a contact between cloths, from one side of it to the other.
-void pass_through(const ContactConstraints& constraints, std::size_t constraint, double side, Pressers& pressers) {
-    const Vec3 across = side * constraints.direction[constraint];
-    std::vector<Presser> passed;
-    for_each_vertex(constraints, constraint, -side, [&](int vertex) {
-        for (const Presser& one : pressers[vertex]) {
-            if (one.direction.dot(across) > same_side)
-                passed.push_back({one.constraint, one.direction, one.distance + constraints.distance[constraint],
-                                  one.activation_distance + constraints.thickness[constraint]});
-        }
-    });
-    for (const Presser& one : passed)
-        for_each_vertex(constraints, constraint, side, [&](int vertex) { add(pressers, vertex, one); });
-}
-
-Pressers pressers_of(const ContactConstraints& constraints) {
-    Pressers pressers;
-    bool layers = false;
-    for (std::size_t constraint = 0; constraint < constraints.size(); ++constraint) {
-        layers = layers || constraints.obstacle[constraint] < 0;
-        if (constraints.obstacle[constraint] < 0) continue;
-        const Presser one{constraint, constraints.direction[constraint], constraints.distance[constraint],
-                          constraints.thickness[constraint]};
-        for_each_vertex(constraints, constraint, 1.0, [&](int vertex) { add(pressers, vertex, one); });
-    }
-    for (int pass = 0; layers && pass < compliant_passes; ++pass) {
-        for (std::size_t constraint = 0; constraint < constraints.size(); ++constraint) {
-            if (constraints.obstacle[constraint] >= 0) continue;
-            for (const double side : {1.0, -1.0}) pass_through(constraints, constraint, side, pressers);
-        }
-    }
-    return pressers;
-}
-
-/// How far the pressing points of constraints have to go back, m; below 0: how much nearer they may come.
-struct Retreats {
-    std::vector<double> by_constraint;     // -infinity: nothing presses from the other side
-    std::array<int, 2> obstacles{-1, -1};  // between which there is the smallest room
-    double min_room = std::numeric_limits<double>::infinity();
-};
-
-Retreats retreats_of(const ContactConstraints& constraints, const Script& script) {
-    Retreats retreats{.by_constraint = std::vector<double>(constraints.size(), -std::numeric_limits<double>::infinity())};
-    const auto yields = [&](const Presser& one) {
-        return script.obstacles[constraints.obstacle[one.constraint]].compliant != nullptr;
-    };
-    const auto keep_apart = [&](const Presser& a, const Presser& b) {
-        const int sharers = int{yields(a)} + int{yields(b)};
-        if (sharers == 0 || a.direction.dot(b.direction) > opposite_sides) return;
-        const Vec3 closing = constraints.obstacle_displacement[b.constraint] - constraints.obstacle_displacement[a.constraint];
-        const double room = a.distance + b.distance + closing.dot(a.direction);
-        const double lack = kept_room * (a.activation_distance + b.activation_distance) - room;
-        for (const Presser& one : {a, b}) {
-            if (yields(one))
-                retreats.by_constraint[one.constraint] = std::max(retreats.by_constraint[one.constraint], lack / sharers);
-        }
-        if (lack / sharers <= -deflection_slack * constraints.thickness[a.constraint] || room >= retreats.min_room) return;
-        retreats.min_room = room;
-        retreats.obstacles = {constraints.obstacle[a.constraint], constraints.obstacle[b.constraint]};
-    };
-    for (const auto& [vertex, pressers] : pressers_of(constraints)) {
-        for (std::size_t i = 0; i < pressers.size(); ++i)
-            for (std::size_t j = i + 1; j < pressers.size(); ++j) keep_apart(pressers[i], pressers[j]);
-    }
-    return retreats;
-}
+/// Fraction of a retreat below which a vertex has not moved. Smaller: places that hardly matter count.
+constexpr double min_deflection_ratio = 0.1;
 
 /// Outer normals at vertices, area-weighted over the triangles around them; the same for vertices at one place.
 std::vector<Vec3> normals_of(const CompliantMesh& mesh, const std::vector<Vec3>& x) {
@@ -154,7 +50,7 @@ struct PressedSurface {
 PressedSurface pressed_surface(const ObstacleState& obstacle, double thickness) {
     PressedSurface surface{
         .places = transform(obstacle.start, *obstacle.start_shape), .normals = {}, .moved = {}, .may_return = {}};
-    surface.normals = normals_of(*obstacle.compliant, surface.places);
+    surface.normals = normals_of(*obstacle.compliance.mesh, surface.places);
     surface.moved.resize(surface.places.size(), Vec3::Zero());
     surface.may_return.resize(surface.places.size(), deflection_return * thickness);
     return surface;
@@ -179,7 +75,7 @@ int push_back(const ObstacleState& obstacle, int number, const ContactConstraint
         const double retreat = retreats.by_constraint[constraint];
         if (constraints.obstacle[constraint] != number || std::isinf(retreat)) continue;
         const Vec3& outward = constraints.direction[constraint];
-        const double edge = obstacle.start.scale * obstacle.compliant->edge;
+        const double edge = obstacle.start.scale * obstacle.compliance.mesh->edge;
         find_around(surface.places, constraints.obstacle_point[constraint],
                     deflection_thicknesses * constraints.thickness[constraint] + deflection_edges * edge, around);
         double facing = 0.0;
@@ -202,8 +98,8 @@ int push_back(const ObstacleState& obstacle, int number, const ContactConstraint
 
 /// Reduces deflections towards zero, by at most `may_return`, m.
 void relax_deflection(ObstacleState& obstacle, std::span<const double> may_return) {
-    for (std::size_t i = 0; i < obstacle.next_deflection.size(); ++i) {
-        Vec3& x = obstacle.next_deflection[i];
+    for (std::size_t i = 0; i < obstacle.compliance.next_deflection.size(); ++i) {
+        Vec3& x = obstacle.compliance.next_deflection[i];
         const double depth = x.norm(), less = may_return[i] / obstacle.start.scale;
         if (less > 0.0) x = depth > less ? Vec3((1.0 - less / depth) * x) : Vec3(Vec3::Zero());
     }
@@ -213,29 +109,29 @@ void relax_deflection(ObstacleState& obstacle, std::span<const double> may_retur
 void keep_resting(ObstacleState& obstacle, double thickness) {
     const double min = resting_deflection * thickness / obstacle.start.scale;
     bool any = false;
-    for (std::size_t i = 0; i < obstacle.next_deflection.size(); ++i) {
-        Vec3& x = obstacle.next_deflection[i];
-        const Vec3 before = obstacle.deflection.empty() ? Vec3(Vec3::Zero()) : obstacle.deflection[i];
+    for (std::size_t i = 0; i < obstacle.compliance.next_deflection.size(); ++i) {
+        Vec3& x = obstacle.compliance.next_deflection[i];
+        const Vec3 before = obstacle.compliance.deflection.empty() ? Vec3(Vec3::Zero()) : obstacle.compliance.deflection[i];
         if (x != Vec3::Zero() && (x - before).squaredNorm() < min * min) x = before;
         any = any || x != Vec3::Zero();
     }
-    if (!any) obstacle.next_deflection.clear();
+    if (!any) obstacle.compliance.next_deflection.clear();
 }
 
 /// Sets the target shape with its deflections.
 void go_to_deflected(ObstacleState& obstacle) {
-    if (obstacle.next_deflection.empty()) return obstacle.go_to(obstacle.aim);
-    auto shape = std::make_shared<std::vector<Vec3>>(*obstacle.aim);
-    for (std::size_t i = 0; i < shape->size(); ++i) (*shape)[i] += obstacle.next_deflection[i];
+    if (obstacle.compliance.next_deflection.empty()) return obstacle.go_to(obstacle.compliance.aim);
+    auto shape = std::make_shared<std::vector<Vec3>>(*obstacle.compliance.aim);
+    for (std::size_t i = 0; i < shape->size(); ++i) (*shape)[i] += obstacle.compliance.next_deflection[i];
     obstacle.go_to(std::move(shape));
 }
 
 void report_compliant(StepScene& scene) {
     for (std::size_t k = 0; k < scene.script.obstacles.size(); ++k) {
         ObstacleState& obstacle = scene.script.obstacles[k];
-        if (!obstacle.compliant) continue;
+        if (!obstacle.compliance.mesh) continue;
         go_to_deflected(obstacle);
-        report_obstacle(obstacle, static_cast<int>(k), *scene.detector);
+        obstacle.pass_to(*scene.detector, static_cast<int>(k));
         obstacle.settled = !obstacle.moves();
     }
 }
@@ -245,7 +141,7 @@ bool all_rests(const StepScene& scene, const ClothState& cloth) {
     bool dented = false;
     for (const ObstacleState& obstacle : scene.script.obstacles) {
         if (obstacle.moves()) return false;
-        dented = dented || !obstacle.deflection.empty();
+        dented = dented || !obstacle.compliance.deflection.empty();
     }
     if (!dented) return true;
     for (int i = 0; i < scene.model.vertex_count(); ++i) {
@@ -257,14 +153,14 @@ bool all_rests(const StepScene& scene, const ClothState& cloth) {
 
 /// Deflections stay as they are.
 Pinches keep_deflections(Script& script) {
-    for (ObstacleState& obstacle : script.obstacles) obstacle.next_deflection = obstacle.deflection;
+    for (ObstacleState& obstacle : script.obstacles) obstacle.compliance.next_deflection = obstacle.compliance.deflection;
     return {};
 }
 
 void add_deflection(ObstacleState& obstacle, std::span<const Vec3> moved) {
     const Pose turn{.rotation = obstacle.end.rotation, .scale = obstacle.end.scale};
-    obstacle.next_deflection.resize(moved.size(), Vec3::Zero());
-    for (std::size_t i = 0; i < moved.size(); ++i) obstacle.next_deflection[i] += inverse_transform(turn, moved[i]);
+    obstacle.compliance.next_deflection.resize(moved.size(), Vec3::Zero());
+    for (std::size_t i = 0; i < moved.size(); ++i) obstacle.compliance.next_deflection[i] += inverse_transform(turn, moved[i]);
 }
 
 }  // namespace
@@ -289,8 +185,8 @@ std::shared_ptr<const CompliantMesh> compliant_mesh(const TriangleMesh& mesh) {
 }
 
 bool are_deflections_of(const ObstacleState& obstacle, std::span<const Vec3> deflection, std::span<const Vec3> aim) {
-    if (!obstacle.compliant) return deflection.empty() && aim.empty();
-    const std::vector<int>& place = obstacle.compliant->place;
+    if (!obstacle.compliance.mesh) return deflection.empty() && aim.empty();
+    const std::vector<int>& place = obstacle.compliance.mesh->place;
     if (aim.size() != place.size() || !std::ranges::all_of(aim, &Vec3::allFinite)) return false;
     if (deflection.empty()) return true;
     if (deflection.size() != place.size() || !std::ranges::all_of(deflection, &Vec3::allFinite)) return false;
@@ -301,17 +197,17 @@ bool are_deflections_of(const ObstacleState& obstacle, std::span<const Vec3> def
 }
 
 bool any_compliant(const Script& script) {
-    return std::ranges::any_of(script.obstacles, [](const ObstacleState& obstacle) { return obstacle.compliant != nullptr; });
+    return std::ranges::any_of(script.obstacles,
+                               [](const ObstacleState& obstacle) { return obstacle.compliance.mesh != nullptr; });
 }
 
-Pinches comply_with_cloth(World& world) {
-    StepScene& scene = world.scene;
+Pinches comply_with_cloth(StepScene& scene, const ClothState& cloth) {
     std::vector<ObstacleState>& obstacles = scene.script.obstacles;
     if (!scene.plan.contacts) return {};
-    if (all_rests(scene, world.state.cloth)) return keep_deflections(scene.script);
-    const auto& points = world.state.cloth.points;
+    if (all_rests(scene, cloth)) return keep_deflections(scene.script);
+    const auto& points = cloth.points;
     const double thickness = *std::ranges::min_element(scene.model.thickness);
-    for (ObstacleState& obstacle : obstacles) obstacle.next_deflection = obstacle.deflection;
+    for (ObstacleState& obstacle : obstacles) obstacle.compliance.next_deflection = obstacle.compliance.deflection;
     report_compliant(scene);
     ContactConstraints constraints;
     scene.detector->update_candidates(points, points);
@@ -319,8 +215,8 @@ Pinches comply_with_cloth(World& world) {
     const Retreats retreats = retreats_of(constraints, scene.script);
     Pinches pinches;
     for (std::size_t k = 0; k < obstacles.size(); ++k) {
-        if (!obstacles[k].compliant) continue;
-        if (retreats.obstacles[0] < 0 && obstacles[k].deflection.empty()) continue;
+        if (!obstacles[k].compliance.mesh) continue;
+        if (retreats.obstacles[0] < 0 && obstacles[k].compliance.deflection.empty()) continue;
         PressedSurface surface = pressed_surface(obstacles[k], thickness);
         const int pushed = push_back(obstacles[k], static_cast<int>(k), constraints, retreats, surface);
         relax_deflection(obstacles[k], surface.may_return);
@@ -336,10 +232,18 @@ Pinches comply_with_cloth(World& world) {
 double largest_deflection(const Script& script) {
     double squared = 0.0;
     for (const ObstacleState& obstacle : script.obstacles) {
-        for (const Vec3& x : obstacle.deflection)
+        for (const Vec3& x : obstacle.compliance.deflection)
             squared = std::max(squared, obstacle.end.scale * obstacle.end.scale * x.squaredNorm());
     }
     return std::sqrt(squared);
+}
+
+bool complies_in_vain(const Script& script, const StepReport& report) {
+    if (report.status != StepStatus::obstacle_too_fast) return false;
+    const auto yields = [&](int number) {
+        return number >= 0 && script.obstacles[static_cast<std::size_t>(number)].compliance.mesh;
+    };
+    return yields(report.blocking_obstacle) || yields(report.second_obstacle);
 }
 
 }  // namespace percale

@@ -4,7 +4,8 @@
 #include <memory>
 #include <span>
 
-#include "world.h"
+#include "percale/report.h"
+#include "plan/scene.h"
 
 namespace percale {
 
@@ -16,17 +17,18 @@ bool are_deflections_of(const ObstacleState& obstacle, std::span<const Vec3> def
 /// Whether some obstacle is compliant.
 bool any_compliant(const Script& script);
 
-/// Called before a step of which the detector knows the wanted motion: where cloth would be left less room than kept_room, the
-/// ends of compliant obstacles are moved apart. At a vertex of cloth that is pressed from A along a and from B along b, a . b <
-/// -0.5, also through layers of cloth in between, the room at the end is r = d_A + d_B + a . (u_B - u_A), d the distances and u
-/// the displacements of the points that press; the missing room is taken off, half from each where both are compliant. Around
-/// these points the surface goes along, (1 - (s/R)^2)^2 at a distance s. Deflections return by a quarter of a thickness, in each
-/// part of a divided step, where nothing prevents it, and stay where nothing moves. The detector knows the new ends afterwards.
+/// Called before a step of which the detector knows the wanted motion: where cloth would be left less room than is kept, the ends
+/// of compliant obstacles are moved apart (pinch.h). Around the points that press the surface goes along, (1 - (s/R)^2)^2 at a
+/// distance s. Deflections return by a quarter of a thickness, in each part of a divided step, where nothing prevents it, and
+/// stay where nothing moves. The detector knows the new ends afterwards.
 struct Pinches {
     int count = 0;                         // pressing points at which a surface gave way
     std::array<int, 2> obstacles{-1, -1};  // between which there is the smallest room
 };
-Pinches comply_with_cloth(World& world);
+Pinches comply_with_cloth(StepScene& scene, const ClothState& cloth);
+
+/// Whether a compliant obstacle that closes on the cloth failed a step.
+bool complies_in_vain(const Script& script, const StepReport& report);
 
 /// Largest deflection, m, world: how far the farthest vertex of an obstacle is from where it should be.
 double largest_deflection(const Script& script);
