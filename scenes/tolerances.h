@@ -76,9 +76,6 @@ constexpr double bending_jump_parts = 8.0;
 /// Fraction of the longest stable step that is advised.
 constexpr double advised_stable_ratio = 0.8;
 
-/// Thicknesses that a repair of the start may move cloth before that is a warning.
-constexpr double far_start_move = 2.0;
-
 /// s, bytes, bytes: what a long run, much memory and much output are.
 constexpr double much_time = 3600.0, much_memory = 8e9, much_disk = 1e10;
 

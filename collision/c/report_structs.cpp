@@ -123,7 +123,7 @@ std::string plan_lines(const ScenePlan& plan) {
     std::ostringstream text;
     text << "scheme: " << plan.scheme_word << (plan.scheme_reason.empty() ? "" : ", ") << plan.scheme_reason << '\n';
     text << "stable step: " << plan.stable_step << " s\n";
-    for (const std::string& warning : plan.warnings) text << "warning: " << warning << '\n';
+    for (const std::string& warning : plan.warning_texts()) text << "warning: " << warning << '\n';
     text << "vertices: " << plan.vertices << ", " << plan.pinned_vertices << " pinned\n";
     const SpringCounts& springs = plan.springs;
     text << "springs: " << springs.structural << " structural, " << springs.shear << " shear, " << springs.bend << " bending, "

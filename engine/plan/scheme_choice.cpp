@@ -167,46 +167,46 @@ bool can_be_chosen(const StepScene& scene, Scheme scheme, int parts) {
 
 namespace {
 
-void warn_of_slivers(const StepScene& scene, std::vector<std::string>& warnings) {
+void warn_of_slivers(const StepScene& scene, std::vector<PlanWarning>& warnings) {
     if (factorises(scene.model, scene.settings.linear_solver)) return;
     for (const ClothRange& cloth : scene.model.cloths) {
         const double aspect = largest_aspect(scene.model, cloth);
         if (aspect > sliver_aspect)
             warnings.push_back(
-                "cloth '" + cloth.name + "' has moduli and triangles " + std::to_string(std::llround(std::min(aspect, 1e15))) +
-                " times as long as high: what iterative solvers leave can be more than the error of the time step; "
-                "remesh it, or set linear_solver = \"direct\"");
+                {"slivers_of_moduli",
+                 "cloth '" + cloth.name + "' has moduli and triangles " + std::to_string(std::llround(std::min(aspect, 1e15))) +
+                     " times as long as high: what iterative solvers leave can be more than the error of the time step",
+                 "remesh it, or set linear_solver = \"direct\""});
     }
 }
 
 }  // namespace
 
-std::vector<std::string> step_warnings(const StepScene& scene, const ClothState& state, const StepPlan& plan, double stable) {
-    std::vector<std::string> warnings;
+std::vector<PlanWarning> step_warnings(const StepScene& scene, const ClothState& state, const StepPlan& plan, double stable) {
+    std::vector<PlanWarning> warnings;
+    const auto warn = [&](const char* kind, const std::string& what, const char* fix) { warnings.push_back({kind, what, fix}); };
     const double dt = scene.settings.time_step / plan.parts;
-    const std::string step = "time_step " + rough_number(dt) + " s";
-    if (!plan.implicit && !scene.settings.adaptive) {
-        if (stable == 0.0)
-            warnings.push_back(word(plan.scheme) + " makes every oscillation grow; use rk4 or an implicit scheme");
-        else if (dt > stable) {
-            warnings.push_back(step + " is longer than the longest stable one of " + word(plan.scheme) + ", about " +
-                               rough_number(stable) + " s: the cloth will fly apart");
-        }
-    }
+    const std::string step = "time_step " + rough_number(dt) + " s", scheme = word(plan.scheme);
+    if (!plan.implicit && !scene.settings.adaptive && stable == 0.0)
+        warn("growing_scheme", scheme + " makes every oscillation grow", "use rk4 or an implicit scheme");
+    else if (!plan.implicit && !scene.settings.adaptive && dt > stable)
+        warn("unstable_step",
+             step + " is longer than the longest stable one of " + scheme + ", about " + rough_number(stable) +
+                 " s: the cloth will fly apart",
+             "");
     const bool undamped = plan.scheme == Scheme::trapezoid || plan.scheme == Scheme::implicit_midpoint;
-    if (undamped && !scene.settings.adaptive) {
-        const double stiff = dt * std::sqrt(largest_square(scene, state));
-        if (stiff > max_ringing_phase) {
-            warnings.push_back(step + " is " + rough_number(stiff) +
-                               " times the reciprocal of the highest frequency: what is so stiff rings under " +
-                               word(plan.scheme) +
-                               " and can gain energy; use backward_euler, or tr_bdf2 with time_step = \"auto\"");
-        }
-    }
-    if (plan.implicit && scene.settings.newton_iterations == 1 && scene.model.vertex_count() > fine_sheet_vertices) {
-        warnings.push_back("newton_iterations = 1 with " + std::to_string(scene.model.vertex_count()) +
-                           " vertices: one linear solve leaves fine cloth far from the end of its step; allow more");
-    }
+    const double stiff = undamped && !scene.settings.adaptive ? dt * std::sqrt(largest_square(scene, state)) : 0.0;
+    if (stiff > max_ringing_phase)
+        warn("ringing_step",
+             step + " is " + rough_number(stiff) +
+                 " times the reciprocal of the highest frequency: what is so stiff rings under " + scheme +
+                 " and can gain energy",
+             "use backward_euler, or tr_bdf2 with time_step = \"auto\"");
+    if (plan.implicit && scene.settings.newton_iterations == 1 && scene.model.vertex_count() > fine_sheet_vertices)
+        warn("one_newton_iteration",
+             "newton_iterations = 1 with " + std::to_string(scene.model.vertex_count()) +
+                 " vertices: one linear solve leaves fine cloth far from the end of its step",
+             "allow more");
     if (plan.implicit) warn_of_slivers(scene, warnings);
     return warnings;
 }

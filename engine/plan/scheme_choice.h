@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "percale/plan.h"
 #include "scene.h"
 
 namespace percale {
@@ -27,7 +28,7 @@ SchemeChoice choose_scheme(const StepScene& scene, const ClothState& state, cons
 /// Whether a scheme with that number of parts can make a step of this scene: by the settings, or by a choice of choose_scheme.
 bool can_be_chosen(const StepScene& scene, Scheme scheme, int parts);
 
-/// Warnings of settings that cause failure or inaccuracy, one sentence each; `stable`: stable_step of the plan's scheme.
-std::vector<std::string> step_warnings(const StepScene& scene, const ClothState& state, const StepPlan& plan, double stable);
+/// Warnings of settings that cause failure or inaccuracy; `stable`: stable_step of the plan's scheme.
+std::vector<PlanWarning> step_warnings(const StepScene& scene, const ClothState& state, const StepPlan& plan, double stable);
 
 }  // namespace percale

@@ -17,7 +17,7 @@
 namespace percale::scenes {
 namespace {
 
-std::unique_ptr<ShapeSource> open_source(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings) {
+std::unique_ptr<ShapeSource> open_source(const Scene& scene, const ObstacleSpec& obstacle, std::vector<Finding>* warnings) {
     if (int{obstacle.frames.has_value()} + int{!obstacle.cache.empty()} + int{obstacle.clip.has_value()} > 1)
         throw SceneError("frames, cache and clip exclude each other");
     if (obstacle.weld > 0.0) throw SceneError("weld joins vertices of a mesh that stays as it is, not of frames, cache or clip");
@@ -42,7 +42,7 @@ std::vector<Vec3> start_of(const Scene& scene, const ObstacleSpec& obstacle, con
 
 }  // namespace
 
-BodyShapes::BodyShapes(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings)
+BodyShapes::BodyShapes(const Scene& scene, const ObstacleSpec& obstacle, std::vector<Finding>* warnings)
     : source_(open_source(scene, obstacle, warnings)),
       lead_in_(obstacle.lead_in),
       from_(obstacle.play_from),

@@ -13,7 +13,7 @@ namespace percale::scenes {
 class BodyShapes {
 public:
     /// Opens the files of the obstacle. Throws SceneError for what cannot be read or does not fit together.
-    BodyShapes(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings = nullptr);
+    BodyShapes(const Scene& scene, const ObstacleSpec& obstacle, std::vector<Finding>* warnings = nullptr);
 
     /// The mesh as it starts, m before the pose.
     const TriangleMesh& first() const { return first_; }

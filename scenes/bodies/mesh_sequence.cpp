@@ -26,7 +26,7 @@ FramePattern frame_pattern(const std::string& name) {
     return {name.substr(0, start), name.substr(end + 1), digits.empty() ? 0 : digits[1] - '0'};
 }
 
-MeshSequence::MeshSequence(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings)
+MeshSequence::MeshSequence(const Scene& scene, const ObstacleSpec& obstacle, std::vector<Finding>* warnings)
     : pattern_(frame_pattern(obstacle.mesh)), first_frame_((*obstacle.frames)[0]), unit_(obstacle.unit), part_(obstacle.part) {
     const int last = (*obstacle.frames)[1];
     if (first_frame_ >= last || first_frame_ < 0) {

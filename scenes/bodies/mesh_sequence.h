@@ -24,7 +24,7 @@ FramePattern frame_pattern(const std::string& name);
 class MeshSequence : public SampledShapes {
 public:
     /// Reads the first frame. Throws SceneError if any of the files is missing, and what import_mesh throws for the first one.
-    MeshSequence(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings = nullptr);
+    MeshSequence(const Scene& scene, const ObstacleSpec& obstacle, std::vector<Finding>* warnings = nullptr);
 
     const TriangleMesh& mesh() const override { return first_; }
 

@@ -46,7 +46,7 @@ std::vector<Number> read_numbers(std::istream& in, std::size_t count, bool big_e
 
 }  // namespace
 
-PointCache::PointCache(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings)
+PointCache::PointCache(const Scene& scene, const ObstacleSpec& obstacle, std::vector<Finding>* warnings)
     : file_(path_beside(scene, obstacle.cache)), unit_(obstacle.unit) {
     check_keeps_vertices(obstacle.mesh, "caches");
     const std::string kind = extension_of(file_);

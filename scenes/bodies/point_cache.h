@@ -19,7 +19,7 @@ class PointCache : public SampledShapes {
 public:
     /// Reads the mesh and the header of obstacle.cache. Throws SceneError where they do not fit, or the file is shorter than its
     /// header claims.
-    PointCache(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings = nullptr);
+    PointCache(const Scene& scene, const ObstacleSpec& obstacle, std::vector<Finding>* warnings = nullptr);
 
     const TriangleMesh& mesh() const override { return mesh_; }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/bounds.h"
 #include "common/text.h"
 
 namespace percale::scenes {
@@ -18,14 +19,7 @@ double largest_displacement(const std::vector<Vec3>& from, const std::vector<Vec
     return std::sqrt(squared);
 }
 
-double diagonal(const std::vector<Vec3>& shape) {
-    Vec3 low = shape[0], high = low;
-    for (const Vec3& x : shape) {
-        low = low.cwiseMin(x);
-        high = high.cwiseMax(x);
-    }
-    return (high - low).norm();
-}
+double diagonal(const std::vector<Vec3>& shape) { return Bounds(shape).extent().norm(); }
 
 void SampledShapes::set_equal_times(int count, double rate) {
     times_.clear();

@@ -23,9 +23,9 @@ std::string number_text(double value) {
     return text.substr(0, exponent + 1) + sign + text.substr(first);
 }
 
-std::string short_number(double value) {
+std::string short_number(double value, int digits) {
     char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
     return text;
 }
 
@@ -64,10 +64,7 @@ std::string number_advice(const std::string& text) {
 std::string counted(long count, const std::string& what) { return std::to_string(count) + " " + what + (count == 1 ? "" : "s"); }
 
 std::string nearness_text(double smallest_distance) {
-    if (std::isinf(smallest_distance)) return "never near";
-    char text[64];
-    std::snprintf(text, sizeof text, "smallest distance %.3g m", smallest_distance);
-    return text;
+    return std::isinf(smallest_distance) ? "never near" : "smallest distance " + short_number(smallest_distance) + " m";
 }
 
 std::string hexadecimal(std::uint64_t value) {

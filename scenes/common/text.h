@@ -10,8 +10,8 @@ namespace percale::scenes {
 /// The shortest text that reads back as the same number: 0.3, 1e-6, inf.
 std::string number_text(double value);
 
-/// Three digits: 0.0167, 1.2e+07.
-std::string short_number(double value);
+/// Three digits, or so many: 0.0167, 1.2e+07.
+std::string short_number(double value, int digits = 3);
 
 /// A fraction as a percentage: "12 %", "0.4 %".
 std::string percent_text(double share);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 
 #include "doctor/doctor_mesh.h"
 #include "doctor/doctor_scene.h"
@@ -26,20 +27,14 @@ std::vector<Finding> examine_mesh(const std::string& file, MeshRole role, Triang
 std::vector<Finding> examine_mesh_file(const std::string& file, std::optional<MeshRole> asked) {
     std::vector<Finding> found;
     try {
-        std::vector<std::string> warnings;
-        const TriangleMesh mesh = import_mesh(file, 1.0, &warnings);
-        check_mesh(mesh, file, false);
-        for (const std::string& warning : warnings) {
-            found.push_back({.severity = Severity::warning,
-                             .kind = "left_out",
-                             .place = file,
-                             .what = warning.substr(file.size() + 2),
-                             .fix = "export the frame that is meant as a mesh that does not move"});
+        const TriangleMesh mesh = import_mesh(file, 1.0, &found);
+        for (Finding& animation : found) {
+            animation.what = finding_text(animation).substr(file.size() + 2);
+            animation.fix = "export the frame that is meant as a mesh that does not move";
         }
+        check_mesh(mesh, file, false);
         for (const MeshRole role : {MeshRole::cloth, MeshRole::obstacle}) {
-            if (asked && *asked != role) continue;
-            const std::vector<Finding> more = examine_mesh(file, role, mesh);
-            found.insert(found.end(), more.begin(), more.end());
+            if (!asked || *asked == role) append_findings(examine_mesh(file, role, mesh), found);
         }
     } catch (const SceneError& error) {
         found.push_back(refusal("unreadable", error, file,
@@ -49,14 +44,6 @@ std::vector<Finding> examine_mesh_file(const std::string& file, std::optional<Me
 }
 
 }  // namespace
-
-long Diagnosis::count(Severity severity) const {
-    return std::count_if(findings.begin(), findings.end(), [&](const Finding& finding) { return finding.severity == severity; });
-}
-
-bool Diagnosis::has(const std::string& kind) const {
-    return std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) { return finding.kind == kind; });
-}
 
 std::vector<std::string> examinable_files(const std::string& folder) {
     std::vector<std::string> files;
@@ -74,8 +61,7 @@ Diagnosis diagnose(const std::string& file, const DoctorSettings& settings) {
     Diagnosis diagnosis{.file = file,
                         .findings = extension_of(file) == ".toml" ? examine_scene_file(file, settings.overrides)
                                                                   : examine_mesh_file(file, settings.role)};
-    std::stable_sort(diagnosis.findings.begin(), diagnosis.findings.end(),
-                     [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
+    std::ranges::stable_sort(diagnosis.findings, std::ranges::greater(), &Finding::severity);
     return diagnosis;
 }
 

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "doctor/finding.h"
+#include "common/finding.h"
 #include "format/override.h"
 
 // What will go wrong with a scene or a mesh, found without taking a step.
@@ -14,8 +15,8 @@ struct Diagnosis {
     std::string file;
     std::vector<Finding> findings;  // errors first
 
-    long count(Severity severity) const;
-    bool has(const std::string& kind) const;
+    long count(Severity severity) const { return count_of(findings, severity); }
+    bool has(const std::string& kind) const { return std::ranges::find(findings, kind, &Finding::kind) != findings.end(); }
 };
 
 struct DoctorSettings {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "doctor/finding.h"
+#include "common/finding.h"
 #include "meshes/mesh_facts.h"
 #include "percale/fabric.h"
 

@@ -1,7 +1,6 @@
 #include "doctor/doctor_report.h"
 
-#include <nlohmann/json.hpp>
-
+#include "common/finding_json.h"
 #include "common/text.h"
 
 namespace percale::scenes {
@@ -10,12 +9,10 @@ using nlohmann::ordered_json;
 
 namespace {
 
+/// As findings are everywhere, and of a mesh what it was looked at as, with its elements.
 ordered_json finding_object(const Finding& finding) {
-    ordered_json json = {{"severity", severity_word(finding.severity)}, {"kind", finding.kind}};
+    ordered_json json = finding;
     json["as"] = finding.role ? ordered_json(role_word(*finding.role)) : ordered_json(nullptr);
-    json["place"] = finding.place;
-    json["what"] = finding.what;
-    json["fix"] = finding.fix;
     json["count"] = finding.count;
     json["elements"] = finding.elements;
     return json;
@@ -43,7 +40,7 @@ std::string diagnosis_text(const Diagnosis& diagnosis) {
         const bool bare = finding.role && finding.place == diagnosis.file;
         const std::string use = bare ? std::string("as ") + role_word(*finding.role) + ": " : "";
         text += finding.place + ": " + severity_word(finding.severity) + ": " + use + finding.what + "\n";
-        text += "    fix: " + finding.fix + "\n";
+        if (!finding.fix.empty()) text += "    fix: " + finding.fix + "\n";
     }
     return text + counts_text(diagnosis) + "\n";
 }

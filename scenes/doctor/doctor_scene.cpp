@@ -26,9 +26,7 @@ namespace {
 
 constexpr const char* see_keys = "correct it there; `percale explain` lists every key with unit, range and default";
 
-bool has_errors(std::span<const Finding> found) {
-    return std::any_of(found.begin(), found.end(), [](const Finding& finding) { return finding.severity == Severity::error; });
-}
+bool has_errors(std::span<const Finding> found) { return count_of(found, Severity::error) > 0; }
 
 /// The meshes of a scene that can be read, each with its number there.
 struct Meshes {
@@ -60,12 +58,8 @@ std::optional<ExaminedMesh> read_mesh(const Spec& spec, MeshRole role, std::vect
         mesh.mesh = read();
         check_mesh(mesh.mesh, mesh.name, false);
     } catch (const SceneError& error) {
-        found.push_back({.severity = Severity::error,
-                         .kind = "unreadable",
-                         .role = role,
-                         .place = mesh.place,
-                         .what = mesh.name + ": " + error.what(),
-                         .fix = fix_of_mesh(spec)});
+        found.push_back(finding("unreadable", spec.place, mesh.name + ": " + error.what(), fix_of_mesh(spec), Severity::error));
+        found.back().role = role;
         return std::nullopt;
     }
     mesh.facts = facts_as(role, mesh.mesh);
@@ -105,34 +99,25 @@ Meshes read_meshes(const Scene& scene, std::vector<Finding>& found) {
     return meshes;
 }
 
-void append(std::vector<Finding> more, std::vector<Finding>& found) {
-    std::move(more.begin(), more.end(), std::back_inserter(found));
-}
-
 void examine_meshes(const Scene& scene, const Meshes& meshes, std::vector<Finding>& found) {
     for (std::size_t i = 0; i < meshes.cloths.size(); ++i) {
         const auto fabric = scene.fabrics.find(meshes.cloth_specs[i]->fabric);
-        append(examine_cloth(meshes.cloths[i], fabric == scene.fabrics.end() ? Fabric{} : fabric->second), found);
+        append_findings(examine_cloth(meshes.cloths[i], fabric == scene.fabrics.end() ? Fabric{} : fabric->second), found);
     }
-    for (const ExaminedMesh& obstacle : meshes.obstacles) append(examine_obstacle(obstacle), found);
+    for (const ExaminedMesh& obstacle : meshes.obstacles) append_findings(examine_obstacle(obstacle), found);
     for (const ExaminedMesh& cloth : meshes.cloths) {
         for (std::size_t k = 0; k < meshes.obstacles.size(); ++k) {
             const bool plane = std::holds_alternative<PlaneShape>(meshes.obstacle_specs[k]->shape);
-            if (!plane) append(examine_pair(cloth, meshes.obstacles[k]), found);
+            if (!plane) append_findings(examine_pair(cloth, meshes.obstacles[k]), found);
         }
     }
 }
 
 void find_unused_fabrics(const Scene& scene, std::vector<Finding>& found) {
-    for (const auto& entry : scene.fabrics) {
-        const std::string& name = entry.first;
-        if (std::any_of(scene.cloths.begin(), scene.cloths.end(), [&](const ClothSpec& cloth) { return cloth.fabric == name; }))
-            continue;
-        found.push_back({.severity = Severity::note,
-                         .kind = "unused_fabric",
-                         .place = scene.file,
-                         .what = "no cloth is made of fabric '" + name + "'",
-                         .fix = "remove [fabric." + name + "], or say fabric = \"" + name + "\" at a cloth"});
+    for (const auto& [name, fabric] : scene.fabrics) {
+        if (std::ranges::find(scene.cloths, name, &ClothSpec::fabric) != scene.cloths.end()) continue;
+        found.push_back(finding("unused_fabric", {scene.file}, "no cloth is made of fabric '" + name + "'",
+                                "remove [fabric." + name + "], or say fabric = \"" + name + "\" at a cloth", Severity::note));
     }
 }
 
@@ -150,11 +135,10 @@ void find_free_fall(const Scene& scene, std::vector<Finding>& found) {
     if (!scene.obstacles.empty() || !scene.seams.empty() || pinned || !pulls(scene)) return;
     for (const ClothSpec& cloth : scene.cloths) {
         if (has_pins(cloth)) continue;
-        found.push_back({.severity = scene.until_rest ? Severity::error : Severity::warning,
-                         .kind = "free_fall",
-                         .place = place_text(cloth.place),
-                         .what = "cloth '" + cloth.name + "' has no pin and the scene no obstacle: it falls for ever",
-                         .fix = "pin vertices (pin = [0]), add an [[obstacle]], or set gravity = [0, 0, 0]"});
+        found.push_back(finding("free_fall", cloth.place,
+                                "cloth '" + cloth.name + "' has no pin and the scene no obstacle: it falls for ever",
+                                "pin vertices (pin = [0]), add an [[obstacle]], or set gravity = [0, 0, 0]",
+                                scene.until_rest ? Severity::error : Severity::warning));
     }
 }
 
@@ -165,12 +149,10 @@ void find_flutter(const Scene& scene, std::vector<Finding>& found) {
         if (std::holds_alternative<WindEvent>(event.what)) last = &event;
     if (!scene.until_rest || last == nullptr || std::get<WindEvent>(last->what).wind == Vec3::Zero()) return;
     found.push_back(
-        {.severity = Severity::warning,
-         .kind = "flutter",
-         .place = place_text(last->place),
-         .what = "duration is \"rest\" and this wind never ends: cloth that flutters is not at rest within max_duration = " +
-                 short_number(scene.max_duration) + " s, and the run fails",
-         .fix = "end it by an event with wind = [0, 0, 0], or say a duration in s"});
+        finding("flutter", last->place,
+                "duration is \"rest\" and this wind never ends: cloth that flutters is not at rest within max_duration = " +
+                    short_number(scene.max_duration) + " s, and the run fails",
+                "end it by an event with wind = [0, 0, 0], or say a duration in s"));
 }
 
 /// Why a measure of [expect] says nothing in this scene, and what does; two empty texts where it does.
@@ -194,11 +176,8 @@ void find_idle_expectations(const Scene& scene, const Meshes& meshes, std::vecto
     for (const Expectation& expectation : scene.expectations) {
         const auto [why, fix] = idle_measure(scene, meshes, expectation.measure);
         if (why.empty()) continue;
-        found.push_back({.severity = Severity::warning,
-                         .kind = "idle_expectation",
-                         .place = place_text(expectation.place),
-                         .what = "expect." + expectation.measure + " can never be measured: " + why,
-                         .fix = fix});
+        found.push_back(finding("idle_expectation", expectation.place,
+                                "expect." + expectation.measure + " can never be measured: " + why, fix));
     }
 }
 
@@ -232,13 +211,12 @@ void find_fast_motion(const Scene& scene, std::vector<Finding>& found) {
     for (const ObstacleSpec& obstacle : scene.obstacles) {
         const double parts = max_parts(scene, obstacle);
         if (parts <= 1.0) continue;
-        found.push_back({.severity = parts > dear_motion_parts ? Severity::warning : Severity::note,
-                         .kind = "fast_obstacle",
-                         .place = place_text(obstacle.place),
-                         .what = "obstacle '" + obstacle.name + "' moves so fast that near cloth a step is made in up to " +
-                                 short_number(parts) + " parts",
-                         .fix = "slow its motion or spin down, or take step.time_step = " +
-                                short_number(scene.step.time_step / parts) + " where every step is to be one"});
+        found.push_back(finding("fast_obstacle", obstacle.place,
+                                "obstacle '" + obstacle.name + "' moves so fast that near cloth a step is made in up to " +
+                                    short_number(parts) + " parts",
+                                "slow its motion or spin down, or take step.time_step = " +
+                                    short_number(scene.step.time_step / parts) + " where every step is to be one",
+                                parts > dear_motion_parts ? Severity::warning : Severity::note));
     }
 }
 
@@ -269,20 +247,16 @@ void examine_shapes(const Scene& scene, const ObstacleSpec& obstacle, std::vecto
         const FastestShape fastest = fastest_shape(shapes, obstacle, scene.latest_end(), scene.step.time_step);
         const double parts = obstacle.pose.scale * fastest.displacement / (bending_part_travel * min_thickness(scene));
         if (parts <= 1.0) return;
-        found.push_back({.severity = parts > bending_jump_parts ? Severity::warning : Severity::note,
-                         .kind = "fast_obstacle",
-                         .place = place_text(obstacle.place),
-                         .what = "obstacle '" + obstacle.name + "' bends so fast that near cloth a step is made in up to " +
-                                 short_number(std::ceil(parts)) + " parts: a vertex goes " +
-                                 short_number(obstacle.pose.scale * fastest.displacement) + " m in a step at " +
-                                 short_number(fastest.time) + " s",
-                         .fix = "play it slower, or mend the frame if it jumps there: bodies that bend are not teleported"});
+        found.push_back(finding("fast_obstacle", obstacle.place,
+                                "obstacle '" + obstacle.name + "' bends so fast that near cloth a step is made in up to " +
+                                    short_number(std::ceil(parts)) + " parts: a vertex goes " +
+                                    short_number(obstacle.pose.scale * fastest.displacement) + " m in a step at " +
+                                    short_number(fastest.time) + " s",
+                                "play it slower, or mend the frame if it jumps there: bodies that bend are not teleported",
+                                parts > bending_jump_parts ? Severity::warning : Severity::note));
     } catch (const SceneError& error) {
-        found.push_back({.severity = Severity::error,
-                         .kind = "bad_frame",
-                         .place = place_text(obstacle.place),
-                         .what = "obstacle '" + obstacle.name + "': " + error.what(),
-                         .fix = "mend that frame, or end before it"});
+        found.push_back(finding("bad_frame", obstacle.place, "obstacle '" + obstacle.name + "': " + error.what(),
+                                "mend that frame, or end before it", Severity::error));
     }
 }
 
@@ -293,34 +267,16 @@ void find_bad_shapes(const Scene& scene, std::vector<Finding>& found) {
     }
 }
 
-/// A warning of the plan says what and, behind a semicolon, what to do.
-Finding plan_warning(const Scene& scene, const ScenePlan& plan, const std::string& warning, const std::string& kind) {
-    const std::size_t semicolon = warning.rfind("; ");
-    Finding finding{.severity = Severity::warning,
-                    .kind = kind,
-                    .place = place_text(scene.scheme_place),
-                    .what = warning.substr(0, semicolon)};
-    if (semicolon != std::string::npos) finding.fix = warning.substr(semicolon + 2);
-    const bool flies_apart =
-        plan.stable_step > 0.0 && plan.stable_step < scene.step.time_step && scene.step.scheme == plan.scheme;
-    if (!flies_apart) return finding;
-    finding.severity = Severity::error;
-    finding.kind = "unstable_step";
-    finding.fix = "set step.time_step = " + short_number(advised_stable_ratio * plan.stable_step) +
-                  " or below, or step.scheme = \"backward_euler\"";
-    return finding;
-}
-
-void find_start_moves(const BuiltScene& built, std::vector<Finding>& found) {
-    for (const StartMove& move : built.simulation.start_repair()) {
-        const ClothSpec& cloth = built.scene.cloths[static_cast<std::size_t>(move.cloth)];
-        const bool far = move.largest_move > far_start_move * built.scene.fabrics.at(cloth.fabric).thickness;
-        found.push_back({.severity = far ? Severity::warning : Severity::note,
-                         .kind = "start_moved",
-                         .place = place_text(cloth.place),
-                         .what = start_move_text(move),
-                         .fix = "move it there by pose.translation, enlarge it by pose.scale if it is too small for what it is "
-                                "around, or set step.start = \"refuse\" to have it refused"});
+/// Adds the warnings of the plan. Cloth that will fly apart is an error, whose fix names a step.
+void find_plan_warnings(const BuiltScene& built, const ScenePlan& plan, std::vector<Finding>& found) {
+    for (Finding& finding : plan_findings(built, plan)) {
+        if (std::ranges::find(found, finding.what, &Finding::what) != found.end()) continue;  // swapped meshes
+        if (finding.kind == "unstable_step") {
+            finding.severity = Severity::error;
+            finding.fix = "set step.time_step = " + short_number(advised_stable_ratio * plan.stable_step) +
+                          " or below, or step.scheme = \"backward_euler\"";
+        }
+        found.push_back(std::move(finding));
     }
 }
 
@@ -334,12 +290,10 @@ void find_left_pins(const BuiltScene& built, std::vector<Finding>& found) {
             const double displacement =
                 (obstacle_pose_at(obstacle, scene.latest_end()).translation - obstacle_pose_at(obstacle, 0.0).translation).norm();
             if (displacement < size) continue;
-            found.push_back({.severity = Severity::note,
-                             .kind = "pins_stay",
-                             .place = place_text(scene.cloths[i].pin_place),
-                             .what = "the pins of cloth '" + scene.cloths[i].name + "' stay in the world, and obstacle '" +
-                                     obstacle.name + "' goes " + short_number(displacement) + " m away",
-                             .fix = "pin = { box = ..., to = \"" + obstacle.name + "\" } if they belong to it"});
+            found.push_back(finding("pins_stay", scene.cloths[i].pin_place,
+                                    "the pins of cloth '" + scene.cloths[i].name + "' stay in the world, and obstacle '" +
+                                        obstacle.name + "' goes " + short_number(displacement) + " m away",
+                                    "pin = { box = ..., to = \"" + obstacle.name + "\" } if they belong to it", Severity::note));
         }
     }
 }
@@ -354,14 +308,10 @@ void examine_built(const Scene& scene, std::vector<Finding>& found) {
     for (const TriangleMesh& mesh : built.cloth_meshes) vertices += mesh.vertices.size();
     read_references(built.scene, vertices);
     const ScenePlan plan = plan_of(built);
-    for (const std::string& warning : plan.warnings) {
-        const bool known = std::ranges::find(found, warning, &Finding::what) != found.end();  // swapped meshes
-        const bool of_scene = std::ranges::find(built.warnings, warning) != built.warnings.end();
-        if (!known) found.push_back(plan_warning(scene, plan, warning, of_scene ? "scene" : "scheme"));
-    }
-    find_start_moves(built, found);
+    find_plan_warnings(built, plan, found);
+    append_findings(start_findings(built), found);
     find_left_pins(built, found);
-    append(examine_cost(built, plan), found);
+    append_findings(examine_cost(built, plan), found);
 }
 
 void try_to_build(const Scene& scene, std::vector<Finding>& found) {
@@ -378,18 +328,15 @@ void try_to_build(const Scene& scene, std::vector<Finding>& found) {
 }
 
 Finding not_looked_at(const std::string& file, const std::string& parts) {
-    return {.severity = Severity::note,
-            .kind = "not_built",
-            .place = file,
-            .what = parts + " were not looked at, because of the errors",
-            .fix = "mend these and run `percale doctor` once more"};
+    return finding("not_built", {file}, parts + " were not looked at, because of the errors",
+                   "mend these and run `percale doctor` once more", Severity::note);
 }
 
 std::vector<Finding> examine_scene(const Scene& scene) {
     std::vector<Finding> found;
     const Meshes meshes = read_meshes(scene, found);
     examine_meshes(scene, meshes, found);
-    append(missing_vertices(scene, meshes.cloths_with_specs()), found);
+    append_findings(missing_vertices(scene, meshes.cloths_with_specs()), found);
     find_unused_fabrics(scene, found);
     find_free_fall(scene, found);
     find_flutter(scene, found);
@@ -417,7 +364,7 @@ std::vector<Finding> examine_cost(const BuiltScene& built, const ScenePlan& plan
     constexpr double seconds_a_spring = 5e-9;
     const Scene& scene = built.scene;
     const auto warn = [&](const std::string& kind, const std::string& what, const std::string& fix) {
-        found.push_back({.severity = Severity::warning, .kind = kind, .place = scene.file, .what = what, .fix = fix});
+        found.push_back(finding(kind, {scene.file}, what, fix));
     };
     const double steps = static_cast<double>(count_steps(scene.latest_end(), scene.step.time_step).steps);
     const double springs = plan.springs.total() + plan.springs.triangle;

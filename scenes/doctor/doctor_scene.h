@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "doctor/finding.h"
+#include "common/finding.h"
 #include "format/override.h"
 #include "percale/simulation.h"
 #include "run/scene_build.h"

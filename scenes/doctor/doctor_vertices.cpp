@@ -26,22 +26,20 @@ Named named_by(const EventSpec& event) {
 
 std::vector<Finding> missing_vertices(const Scene& scene, std::span<const ClothMesh> cloths) {
     std::vector<Finding> found;
-    const auto look_at = [&](const Named& named, const std::string& place, const std::string& what) {
+    const auto look_at = [&](const Named& named, const SourcePlace& place, const std::string& what) {
         const auto cloth = std::ranges::find_if(cloths, [&](const ClothMesh& c) { return c.spec->name == named.cloth; });
         if (cloth == cloths.end() || !named.vertices) return;
         try {
             select_vertices(*named.vertices, *cloth->mesh, named.cloth);
         } catch (const SceneError& error) {
-            found.push_back({.severity = Severity::error,
-                             .kind = "missing_vertices",
-                             .place = place,
-                             .what = what + error.what(),
-                             .fix = "name vertices that the cloth has: by number, in a box that holds some, or the boundary of "
-                                    "one that has an edge"});
+            found.push_back(finding("missing_vertices", place, what + error.what(),
+                                    "name vertices that the cloth has: by number, in a box that holds some, or the boundary of "
+                                    "one that has an edge",
+                                    Severity::error));
         }
     };
-    for (const ClothSpec& cloth : scene.cloths) look_at({&cloth.pin, cloth.name}, place_text(cloth.pin_place), "pin: ");
-    for (const EventSpec& event : scene.events) look_at(named_by(event), place_text(event.place), "event: ");
+    for (const ClothSpec& cloth : scene.cloths) look_at({&cloth.pin, cloth.name}, cloth.pin_place, "pin: ");
+    for (const EventSpec& event : scene.events) look_at(named_by(event), event.place, "event: ");
     return found;
 }
 

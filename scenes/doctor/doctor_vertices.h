@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "doctor/finding.h"
+#include "common/finding.h"
 #include "format/scene.h"
 
 namespace percale::scenes {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "common/bounds.h"
 #include "common/length_unit.h"
 #include "common/text.h"
 #include "common/whole_file.h"
@@ -37,28 +38,19 @@ bool is_pattern(const std::string& garment) {
 /// The name of its file, with a number if another garment has that name.
 std::string garment_name(const std::string& file, const Scene& scene) {
     const std::string stem = std::filesystem::path(file).stem().string();
-    const auto known = [&](const std::string& name) {
-        return std::ranges::any_of(scene.cloths, [&](const ClothSpec& cloth) { return cloth.name == name; });
-    };
     std::string name = stem;
-    for (int number = 2; known(name); ++number) name = stem + " " + std::to_string(number);
+    for (int number = 2; std::ranges::find(scene.cloths, name, &ClothSpec::name) != scene.cloths.end(); ++number)
+        name = stem + " " + std::to_string(number);
     return name;
 }
 
 /// Largest edges of a mesh's bounding box, in its unit; 0 where it cannot be read, which building the scene refuses.
 Vec3 extent_of(const std::string& file, const std::string& part) {
-    Vec3 lowest = Vec3::Zero(), highest = Vec3::Zero();
     try {
-        const TriangleMesh mesh = import_mesh(file, 1.0, nullptr, part);
-        if (!mesh.vertices.empty()) lowest = highest = mesh.vertices.front();
-        for (const Vec3& x : mesh.vertices) {
-            lowest = lowest.cwiseMin(x);
-            highest = highest.cwiseMax(x);
-        }
+        return Bounds(import_mesh(file, 1.0, nullptr, part).vertices).extent();
     } catch (const SceneError&) {
         return Vec3::Zero();
     }
-    return highest - lowest;
 }
 
 class DrapeScenes {
@@ -80,7 +72,9 @@ public:
     }
 
 private:
-    void note(const std::string& text) { made_.notes.push_back(text); }
+    void note(const std::string& kind, const std::string& file, const std::string& what) {
+        made_.findings.push_back(finding(kind, {file}, file + what, {}, Severity::note));
+    }
 
     void set_up() {
         Scene& scene = made_.scene;
@@ -113,7 +107,7 @@ private:
     void guess_up(const Vec3& body) {
         made_.z_up = options_.up.empty() ? stands_along_z(body) : options_.up == "z";
         if (made_.z_up && options_.up.empty())
-            note(options_.body() + " stands along z, so z is taken as up in the meshes (--up y, if y is)");
+            note("guessed_up", options_.body(), " stands along z, so z is taken as up in the meshes (--up y, if y is)");
         // From z up to y up: a quarter turn about x.
         if (made_.z_up) turn_ = {.w = std::sqrt(0.5), .x = -std::sqrt(0.5)};
     }
@@ -123,10 +117,11 @@ private:
         if (!said.empty()) return metres_of_unit(said).value();
         const std::string unit = guessed_unit(extent, body);
         if (unit != "m")
-            note(file + " is " + short_number(extent) + " units large" +
-                 (body > 0.0 ? " and the body " + short_number(body) + " m" : "") + ", so its unit is taken as " + unit +
-                 ", which makes it " + short_number(*metres_of_unit(unit) * extent) + " m (" + option +
-                 " m, if it is m); what is written is in m");
+            note("guessed_unit", file,
+                 " is " + short_number(extent) + " units large" +
+                     (body > 0.0 ? " and the body " + short_number(body) + " m" : "") + ", so its unit is taken as " + unit +
+                     ", which makes it " + short_number(*metres_of_unit(unit) * extent) + " m (" + option +
+                     " m, if it is m); what is written is in m");
         return *metres_of_unit(unit);
     }
 
@@ -155,16 +150,16 @@ private:
         cloth.pose.rotation = product(cloth.pose.rotation, turn_);
         std::size_t stitches = extension_of(file) == ".obj" ? find_obj_stitches(file).size() : 0;
         if (stitches > 0 && !cloth.part.empty()) {
-            note(file + " has stitches, which count all its vertices: with --garment-part it is not sewn");
+            note("unsewn_part", file, " has stitches, which count all its vertices: with --garment-part it is not sewn");
             stitches = 0;
         }
         cloth.fabric = stitches > 0 ? sewn_mesh_fabric : mesh_fabric;
         if (stitches == 0)
             cloth.weld = options_.weld;
         else if (options_.weld > 0.0)
-            note(file + " has stitches, which count all its vertices: --weld leaves it as it is");
+            note("not_welded", file, " has stitches, which count all its vertices: --weld leaves it as it is");
         if (stitches > 0) {
-            note(file + " has " + std::to_string(stitches) + " stitches, by which it is sewn");
+            note("stitches", file, " has " + std::to_string(stitches) + " stitches, by which it is sewn");
             add_seam(cloth, false);  // gathers of others are sewn at every vertex, and a weld would press their edges together
         }
         made_.scene.cloths.push_back(cloth);
@@ -209,21 +204,23 @@ private:
         made_.scene.obstacles.push_back(body);
     }
 
-    /// Notes the warnings of the doctor; errors are refused when the scene is built. Where the mesh itself has to be mended, the
-    /// note says how.
+    /// Takes over the warnings of the doctor; errors are refused when the scene is built. Where the mesh itself has to be mended,
+    /// they say how.
     void ask_doctor() {
         const auto among = [](const Finding& finding, std::initializer_list<std::string_view> kinds) {
             return std::ranges::find(kinds, finding.kind) != kinds.end();
         };
-        for (const Finding& finding : examine_scene_meshes(made_.scene)) {
+        for (Finding& finding : examine_scene_meshes(made_.scene)) {
             const bool of_cloth = finding.role == MeshRole::cloth, sewn = !made_.scene.seams.empty();
             const bool open = of_cloth && !sewn && among(finding, {"repeated_places", "near_rims"});
             made_.comes_apart = made_.comes_apart || open;
-            if (of_cloth && finding.kind == "parts")
-                note(finding.what + "; --garment-part takes one object or group of a file alone");
-            if (finding.severity != Severity::warning) continue;
-            const bool of_mesh = among(finding, {"repeated_places", "near_rims", "pinched_vertices", "slivers", "edge_lengths"});
-            note("warning: " + finding.what + (of_mesh ? "; " + finding.fix : ""));
+            const bool parts = of_cloth && finding.kind == "parts";
+            if (!parts && finding.severity != Severity::warning) continue;
+            if (parts)
+                finding.fix = "--garment-part takes one object or group of a file alone";
+            else if (!among(finding, {"repeated_places", "near_rims", "pinched_vertices", "slivers", "edge_lengths"}))
+                finding.fix.clear();
+            made_.findings.push_back(std::move(finding));
         }
     }
 

@@ -47,10 +47,10 @@ std::string guessed_unit(double extent, double body = 0.0);
 /// Whether a body with this bounding box is much taller along z than along y.
 bool stands_along_z(const Vec3& extent);
 
-/// The scene that the options describe, and what was guessed or is doubtful, a sentence each.
+/// The scene that the options describe, and what was guessed or is doubtful.
 struct DrapeScene {
     Scene scene;
-    std::vector<std::string> notes;
+    std::vector<Finding> findings;
     bool z_up = false;         // of the files
     bool comes_apart = false;  // a garment has rims that look as if they were meant to be joined
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene_file_error.h"
 #include "common/text.h"
 #include "meshes/obj_file.h"
 #include "percale/certify.h"
@@ -53,14 +54,18 @@ std::string seam_text(const WidestGap& gap, const FrameCheck& check) {
     return text;
 }
 
+Finding note(const std::string& kind, const std::string& what) { return finding(kind, {}, what, {}, Severity::note); }
+
 /// Patterns are drawn where they are worn: one that hangs much lower at the end did not hold.
-void report_sliding_of(const BuiltScene& built, const Drape& drape, DrapeVerdict& verdict) {
+void report_sliding_of(const BuiltScene& built, const Drape& drape, std::vector<Finding>& found) {
     for (std::size_t k = 0; k < built.cloths.size(); ++k) {
         if (built.pattern_seams[k].empty()) continue;
         const double drop = drape.height[k] - mean_height(built.simulation, built.cloths[k]);
         if (drop < far_slid) continue;
-        verdict.lines.push_back("warning: '" + built.scene.cloths[k].name + "' slid down by " + short_number(drop) +
-                                " m in the mean since it was sewn: it does not hold where it was drawn");
+        const ClothSpec& cloth = built.scene.cloths[k];
+        found.push_back(finding("slid", cloth.place,
+                                "'" + cloth.name + "' slid down by " + short_number(drop) +
+                                    " m in the mean since it was sewn: it does not hold where it was drawn"));
     }
 }
 
@@ -90,24 +95,22 @@ DrapedFiles write_draped(const BuiltScene& built, const DrapeOptions& options, b
 DrapeVerdict verdict_of(const BuiltScene& built, const DrapeOptions& options, const Drape& drape, const DrapedFiles& files,
                         bool comes_apart) {
     DrapeVerdict verdict;
+    std::vector<Finding>& found = verdict.findings;
     const FrameCheck& check = files.check;
-    if (options.no_self_contact && files.own_crossings > 0) {
-        verdict.lines.push_back("without self-contact: cloth crosses cloth in " + std::to_string(files.own_crossings) +
-                                " triangle pairs");
-    }
-    verdict.lines.push_back(
-        joined(options.outs) + ": " + (drape.end == DrapeEnd::settled ? "at rest, " : "") + short_number(drape.last.time) +
-        " s simulated, fastest vertex " + short_number(drape.rest.largest_speed) + " m/s, " +
-        std::to_string(check.intersections) + " intersecting pairs" + (options.no_self_contact ? " with the body, " : ", ") +
-        nearness_text(check.smallest_distance) + ", largest strain " + percent_text(built.simulation.largest_strain()));
-    for (const std::string& text : strain_warnings(built, built.simulation.largest_strain())) {
-        verdict.lines.push_back("warning: " + text);
-    }
+    if (options.no_self_contact && files.own_crossings > 0)
+        found.push_back(note("own_crossings", "without self-contact: cloth crosses cloth in " +
+                                                  std::to_string(files.own_crossings) + " triangle pairs"));
+    found.push_back(note("draped", joined(options.outs) + ": " + (drape.end == DrapeEnd::settled ? "at rest, " : "") +
+                                       short_number(drape.last.time) + " s simulated, fastest vertex " +
+                                       short_number(drape.rest.largest_speed) + " m/s, " + std::to_string(check.intersections) +
+                                       " intersecting pairs" + (options.no_self_contact ? " with the body, " : ", ") +
+                                       nearness_text(check.smallest_distance) + ", largest strain " +
+                                       percent_text(built.simulation.largest_strain())));
+    append_findings(strain_warnings(built, built.simulation.largest_strain()), found);
     const WidestGap gap = widest_gap(built);
-    if (gap.stitches > 0) verdict.lines.push_back(seam_text(gap, check));
-    report_sliding_of(built, drape, verdict);
-    for (const std::string& text : tight_warnings(built))
-        verdict.lines.push_back("warning: " + text + " (--scale makes it larger)");
+    if (gap.stitches > 0) found.push_back(note("sewn", seam_text(gap, check)));
+    report_sliding_of(built, drape, found);
+    append_findings(tight_warnings(built, "--scale"), found);
     const std::string fault = fault_of(drape, check, gap, comes_apart);
     const std::string outs = joined(options.outs);
     if (!fault.empty())

@@ -16,9 +16,9 @@ struct DrapedFiles {
 };
 DrapedFiles write_draped(const BuiltScene& built, const DrapeOptions& options, bool z_up);
 
-/// What a drape came to, in lines for its user. `wrong` is empty where all garments lie sewn, at rest and clean on the body.
+/// What a drape came to, for its user. `wrong` is empty where all garments lie sewn, at rest and clean on the body.
 struct DrapeVerdict {
-    std::vector<std::string> lines = {};
+    std::vector<Finding> findings = {};
     std::string wrong = {};
 };
 DrapeVerdict verdict_of(const BuiltScene& built, const DrapeOptions& options, const Drape& drape, const DrapedFiles& files,

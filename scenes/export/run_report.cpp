@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
+#include "common/finding_json.h"
 #include "common/input_file.h"
 #include "common/text.h"
 #include "export/run_settings.h"
@@ -216,22 +216,23 @@ ordered_json pinch_list(const BuiltScene& built, std::span<const Pinch> pinches)
     return list;
 }
 
-ordered_json skipped_list(std::span<const Skip> skipped) {
-    ordered_json list = ordered_json::array();
-    for (const Skip& skip : skipped) list.push_back({{"what", skip.what}, {"why", skip.why}});
-    return list;
-}
-
 }  // namespace
 
-std::vector<std::string> end_warnings(const BuiltScene& built, const RunResult& result) {
-    const Measures& m = result.measures;
-    std::vector<std::string> warnings = strain_warnings(built, m.largest_strain);
+std::vector<Finding> end_warnings(const BuiltScene& built, const RunResult& result) {
+    std::vector<Finding> warnings = strain_warnings(built, result.measures.largest_strain);
     const bool on_body = std::ranges::any_of(built.scene.obstacles, [](const ObstacleSpec& o) { return !o.mesh.empty(); });
     if (result.status == RunStatus::finished && on_body && result.totals.contacts_most > 0)
-        for (const std::string& text : tight_warnings(built)) warnings.push_back(text + " (pose.scale makes it larger)");
-    for (const std::string& text : seam_warnings(built)) warnings.push_back(text);
+        append_findings(tight_warnings(built, "pose.scale"), warnings);
+    append_findings(seam_warnings(built), warnings);
     return warnings;
+}
+
+std::vector<Finding> run_findings(const BuiltScene& built, const RunResult& result) {
+    std::vector<Finding> found = start_findings(built);
+    append_findings(plan_findings(built, result.plan), found);
+    for (const Pinch& pinch : result.totals.pinches) found.push_back(pinch_warning(pinch, built.scene));
+    append_findings(end_warnings(built, result), found);
+    return found;
 }
 
 std::string run_report_text(const BuiltScene& built, const RunResult& result, std::span<const FrameRecord> frames,
@@ -254,10 +255,11 @@ std::string run_report_text(const BuiltScene& built, const RunResult& result, st
     json["pinched"] = pinch_list(built, result.totals.pinches);
     json["scheme"] = result.plan.scheme_word;
     if (!result.plan.scheme_reason.empty()) json["scheme_reason"] = result.plan.scheme_reason;
-    json["warnings"] = result.plan.warnings;
-    for (const Pinch& pinch : result.totals.pinches) json["warnings"].push_back(pinch_text(pinch, built.scene));
-    for (const std::string& text : end_warnings(built, result)) json["warnings"].push_back(text);
-    json["skipped"] = skipped_list(result.plan.skipped);
+    const std::vector<Finding> findings = run_findings(built, result);
+    // What the start moved is in start_repair.
+    json["warnings"] = finding_texts(std::span(findings).subspan(built.simulation.start_repair().size()));
+    json["findings"] = findings;
+    json["skipped"] = result.plan.skipped;
     put_contact_and_energy(json, result.totals);
     put_measures(json, result.measures);
     json["step_certificate"] = step_certificate(result.measures);

@@ -16,8 +16,11 @@ namespace percale::scenes {
 std::string run_report_text(const BuiltScene& built, const RunResult& result, std::span<const FrameRecord> frames,
                             std::span<const ExpectationResult> expectations);
 
-/// What went wrong in a run besides pinches, whatever is expected: torn cloth, crossings, steps that were not solved.
-std::vector<std::string> end_warnings(const BuiltScene& built, const RunResult& result);
+/// What went wrong in a run besides pinches, whatever is expected: torn and tight cloth, open seams.
+std::vector<Finding> end_warnings(const BuiltScene& built, const RunResult& result);
+
+/// All that is found in a run: what its start moved, the warnings of its plan, its pinches, and what went wrong besides.
+std::vector<Finding> run_findings(const BuiltScene& built, const RunResult& result);
 
 /// The frames that FOLDER/report.json lists. Throws SceneError naming the file if it is missing or is no report.
 std::vector<FrameRecord> read_frame_records(const std::string& folder);

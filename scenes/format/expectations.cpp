@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 
 #include "common/text.h"
@@ -29,9 +28,8 @@ const MeasureDescription measure_list[] = {
 // Six digits, or all of them where six would contradict the verdict.
 std::string value_text(const Expectation& expectation, double value) {
     if (std::isinf(value)) return value > 0.0 ? "infinite" : "minus infinite";
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    const bool same_verdict = within(expectation, std::strtod(text, nullptr)) == within(expectation, value);
+    const std::string text = short_number(value, 6);
+    const bool same_verdict = within(expectation, std::strtod(text.c_str(), nullptr)) == within(expectation, value);
     return same_verdict ? text : number_text(value);
 }
 

@@ -1,6 +1,5 @@
 #include "format/explain.h"
 
-#include <cstdio>
 #include <ostream>
 
 #include "common/nearest_name.h"
@@ -91,18 +90,12 @@ std::string markdown_row(const SceneKey& key) {
     return "| `" + below_heading(key.path) + "` | " + value_text(key) + " | " + fallback + " | " + key.sentence + " |\n";
 }
 
-std::string three_digits(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-}
-
 void print_preset(std::ostream& out, const FabricPreset& preset) {
     const Fabric& fabric = preset.fabric;
     const auto [warp, weft] = *fabric.stretch_stiffness;
     out << "  " << preset.name << ": area_density " << number_text(fabric.area_density) << " kg/m^2, stretch_stiffness ["
         << number_text(warp) << ", " << number_text(weft) << "] N/m, shear_stiffness " << number_text(*fabric.shear_stiffness)
-        << " N/m, bend_stiffness " << three_digits(*fabric.bend_stiffness) << " N m\n";
+        << " N/m, bend_stiffness " << short_number(*fabric.bend_stiffness) << " N m\n";
 }
 
 // One block for each source, in the order of the list.

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/finding.h"
 #include "common/source_place.h"
 #include "frames/frame_formats.h"
 #include "percale/fabric.h"
@@ -211,7 +212,7 @@ struct Scene {
     std::vector<EventSpec> events;  // ascending times
     std::vector<Expectation> expectations;
     OutputSpec output;
-    std::vector<std::string> warnings;  // what has to be changed in its file
+    std::vector<Finding> warnings;  // what has to be changed in its file
 
     /// The latest time at which it ends, s.
     double latest_end() const { return until_rest ? max_duration : duration; }

@@ -104,13 +104,13 @@ Scene scene_with(TomlNode document, const std::string& name, std::span<const Ove
     document.place = {.file = name};
     if (document.entries.empty()) fail_at(document.place, "is empty; a scene needs at least one [fabric.NAME] and one [[cloth]]");
     if (document.find("panel") != nullptr && document.find("cloth") == nullptr) throw SceneError(name + not_a_scene);
-    std::vector<std::string> notes;
-    rename_former_keys(document, "", notes, faults);
-    for (const Override& override : overrides) apply_override(document, with_present_key(override, notes));
+    std::vector<Finding> warnings;
+    rename_former_keys(document, "", warnings, faults);
+    for (const Override& override : overrides) apply_override(document, with_present_key(override, warnings));
     check_document(document, faults);
     if (!faults.found.empty()) return {};
     Scene scene = scene_of(document, name, faults);
-    scene.warnings = std::move(notes);
+    scene.warnings = std::move(warnings);
     if (!faults.found.empty()) return scene;
     if (scene.cloths.empty()) fail_at(document.place, "has no cloth; a scene needs at least one [[cloth]]");
     check_references(scene, faults);

@@ -50,8 +50,7 @@ RestShape panel_shape(const PatternMesh& garment, double scale) {
 /// The sum of the lengths of the three edges.
 double length_of(const std::array<Vec3, 3>& x) { return (x[1] - x[0]).norm() + (x[2] - x[1]).norm() + (x[0] - x[2]).norm(); }
 
-void warn_of_scale(const ClothSpec& cloth, const RestShape& shape, const TriangleMesh& start,
-                   std::vector<std::string>& warnings) {
+void warn_of_scale(const ClothSpec& cloth, const RestShape& shape, const TriangleMesh& start, std::vector<Finding>& warnings) {
     double rest = 0.0, now = 0.0;
     for (std::size_t t = 0; t < start.triangles.size(); ++t) {
         const auto& [a, b, c] = start.triangles[t];
@@ -60,14 +59,15 @@ void warn_of_scale(const ClothSpec& cloth, const RestShape& shape, const Triangl
     }
     const double ratio = rest / now;
     if (ratio > 1.0 / max_rest_ratio && ratio < max_rest_ratio) return;
-    const bool uv = cloth.rest == "uv";
-    warnings.push_back("cloth '" + cloth.name + "': its edges are " + short_number(ratio) +
-                       " times as long in its rest shape as they start" +
-                       (uv ? "; with uv_scale = " + short_number(cloth.uv_scale / ratio) + " they would be as long" : ""));
+    const std::string uv_scale = "with uv_scale = " + short_number(cloth.uv_scale / ratio) + " they would be as long";
+    warnings.push_back(finding(
+        "rest_scale", {},
+        "cloth '" + cloth.name + "': its edges are " + short_number(ratio) + " times as long in its rest shape as they start",
+        cloth.rest == "uv" ? uv_scale : ""));
 }
 
 /// Removes leftovers from a cloth; those of an obstacle are removed by its cleaning (Cleaning).
-void leave_out(const Scene& scene, const ClothSpec& cloth, ClothShape& shape, std::vector<std::string>& warnings) {
+void leave_out(const Scene& scene, const ClothSpec& cloth, ClothShape& shape, std::vector<Finding>& warnings) {
     const Leftovers leftovers = leftovers_of(shape.start);
     if (!leftovers.any()) return;
     const std::size_t kept = shape.start.vertices.size() - leftovers.vertices.size();
@@ -78,7 +78,7 @@ void leave_out(const Scene& scene, const ClothSpec& cloth, ClothShape& shape, st
                                                            std::to_string(leftovers.vertices.front()) +
                                                            "; left out they would change the numbers of vertices, which " + use +
                                                            " names: delete them from the mesh");
-    warnings.push_back("cloth '" + cloth.name + "': " + leftovers.text() + " of its mesh are left out");
+    warnings.push_back(finding("leftovers", {}, "cloth '" + cloth.name + "': " + leftovers.text() + " of its mesh are left out"));
     drop_leftovers(leftovers, shape.start, shape.rest);
 }
 
@@ -88,7 +88,7 @@ std::string path_beside(const Scene& scene, const std::string& path) {
     return (std::filesystem::path(scene.file).parent_path() / path).string();
 }
 
-TriangleMesh start_mesh(const Scene& scene, const ClothSpec& cloth, std::vector<std::string>* warnings) {
+TriangleMesh start_mesh(const Scene& scene, const ClothSpec& cloth, std::vector<Finding>* warnings) {
     TriangleMesh mesh;
     if (!cloth.pattern.empty()) {
         mesh = pattern_mesh(scene, cloth).mesh;
@@ -101,7 +101,7 @@ TriangleMesh start_mesh(const Scene& scene, const ClothSpec& cloth, std::vector<
     return mesh;
 }
 
-RestShape rest_shape(const Scene& scene, const ClothSpec& cloth, const TriangleMesh& start, std::vector<std::string>& warnings) {
+RestShape rest_shape(const Scene& scene, const ClothSpec& cloth, const TriangleMesh& start, std::vector<Finding>& warnings) {
     RestShape shape;
     const bool uv = cloth.rest == "uv";
     if (cloth.weld > 0.0 && !cloth.rest.empty())
@@ -126,7 +126,7 @@ RestShape rest_shape(const Scene& scene, const ClothSpec& cloth, const TriangleM
     return shape;
 }
 
-ClothShape cloth_shape(const Scene& scene, const ClothSpec& cloth, std::vector<std::string>& warnings) {
+ClothShape cloth_shape(const Scene& scene, const ClothSpec& cloth, std::vector<Finding>& warnings) {
     ClothShape shape;
     const std::string shown = "cloth '" + cloth.name + "'";
     if (cloth.pattern.empty()) {

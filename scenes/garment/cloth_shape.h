@@ -14,7 +14,7 @@ std::string path_beside(const Scene& scene, const std::string& path);
 
 /// A cloth as it starts: mesh file, meshed pattern or grid at its pose, in m; not yet checked (check_mesh). Throws SceneError for
 /// a file that cannot be read.
-TriangleMesh start_mesh(const Scene& scene, const ClothSpec& cloth, std::vector<std::string>* warnings = nullptr);
+TriangleMesh start_mesh(const Scene& scene, const ClothSpec& cloth, std::vector<Finding>* warnings = nullptr);
 
 /// What a cloth is made from.
 struct ClothShape {
@@ -25,10 +25,10 @@ struct ClothShape {
 
 /// Makes all of it; a pattern is meshed once. The start is checked (check_mesh). `warnings`: what is likely a mistake. Throws
 /// SceneError.
-ClothShape cloth_shape(const Scene& scene, const ClothSpec& cloth, std::vector<std::string>& warnings);
+ClothShape cloth_shape(const Scene& scene, const ClothSpec& cloth, std::vector<Finding>& warnings);
 
 /// The rest shape of a cloth, m, the pose's scale applied, and its direction of warp; empty for a cloth that gives neither.
 /// `warnings`: what is likely a mistake. Throws SceneError.
-RestShape rest_shape(const Scene& scene, const ClothSpec& cloth, const TriangleMesh& start, std::vector<std::string>& warnings);
+RestShape rest_shape(const Scene& scene, const ClothSpec& cloth, const TriangleMesh& start, std::vector<Finding>& warnings);
 
 }  // namespace percale::scenes

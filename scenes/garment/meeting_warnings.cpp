@@ -5,6 +5,8 @@
 #include <limits>
 #include <queue>
 
+#include "common/bounds.h"
+#include "common/scene_file_error.h"
 #include "common/text.h"
 #include "meshes/mesh_facts.h"
 
@@ -13,7 +15,7 @@ namespace {
 
 /// Garments have rims and bodies are closed.
 void warn_of_swapped(const Scene& scene, std::span<const TriangleMesh> starts, std::span<const TriangleMesh> obstacles,
-                     std::vector<std::string>& warnings) {
+                     std::vector<Finding>& warnings) {
     const auto is_closed = [&](const ClothSpec& cloth) {
         return !cloth.mesh.empty() && !scene.is_filled(cloth) && is_watertight(starts[&cloth - scene.cloths.data()]);
     };
@@ -25,7 +27,9 @@ void warn_of_swapped(const Scene& scene, std::span<const TriangleMesh> starts, s
         if (is_watertight(joined_by_place(obstacles[k]).mesh)) return;  // there is a body
         open = &scene.obstacles[k];
     }
-    if (open != nullptr) warnings.push_back("cloth '" + cloth->name + "': " + swapped_text("obstacle '" + open->name + "'"));
+    if (open == nullptr) return;
+    warnings.push_back(
+        finding("swapped", cloth->place, "cloth '" + cloth->name + "': " + swapped_text("obstacle '" + open->name + "'")));
 }
 
 /// The centroid of the triangles' areas, and so of the mass.
@@ -40,26 +44,6 @@ Vec3 middle_of(const TriangleMesh& mesh) {
     }
     return sum / area;
 }
-
-struct Box {
-    Vec3 lowest = Vec3::Constant(std::numeric_limits<double>::infinity()), highest = -lowest;
-
-    explicit Box(const Vec3& point) : lowest(point), highest(point) {}
-    explicit Box(const TriangleMesh& mesh) {
-        for (const Vec3& x : mesh.vertices) {
-            lowest = lowest.cwiseMin(x);
-            highest = highest.cwiseMax(x);
-        }
-    }
-    void grow(double by) {
-        lowest.array() -= by;
-        highest.array() += by;
-    }
-    /// The gap to another box along the axis where it is widest, m; below 0 where they overlap.
-    double gap(const Box& other) const {
-        return std::max((lowest - other.highest).maxCoeff(), (other.lowest - highest).maxCoeff());
-    }
-};
 
 using Neighbours = std::vector<std::vector<int>>;
 
@@ -119,14 +103,15 @@ bool only_falls(const Scene& scene) {
 
 /// The box that cloth of that size may reach: as far around its start if a pin holds it, else around its middle, which falls
 /// along gravity.
-Box reach_of(const Scene& scene, const ClothSpec& cloth, const TriangleMesh& start, double size) {
-    Box box(start);
+Bounds reach_of(const Scene& scene, const ClothSpec& cloth, const TriangleMesh& start, double size) {
+    Bounds box(start.vertices);
     const double thickness = scene.fabrics.at(cloth.fabric).thickness;
     if (has_pins(cloth)) {
         box.grow(size + thickness);
         return box;
     }
-    Box around(middle_of(start));
+    const Vec3 middle = middle_of(start);
+    Bounds around({&middle, 1});
     around.grow(size + thickness);
     box.lowest = box.lowest.cwiseMin(around.lowest);
     box.highest = box.highest.cwiseMax(around.highest);
@@ -139,14 +124,14 @@ Box reach_of(const Scene& scene, const ClothSpec& cloth, const TriangleMesh& sta
 }
 
 void warn_of_missing(const Scene& scene, std::span<const TriangleMesh> starts, std::span<const TriangleMesh> obstacles,
-                     std::vector<std::string>& warnings) {
+                     std::vector<Finding>& warnings) {
     if (starts.empty() || obstacles.empty() || !only_falls(scene)) return;
     double nearest = std::numeric_limits<double>::infinity();
     std::string pair;
     for (std::size_t i = 0; i < starts.size(); ++i) {
         const ClothSpec& cloth = scene.cloths[i];
         const auto gap_to = [&](const TriangleMesh& obstacle, double size) {
-            return reach_of(scene, cloth, starts[i], size).gap(Box(obstacle));
+            return reach_of(scene, cloth, starts[i], size).gap(Bounds(obstacle.vertices));
         };
         const auto meets = [&](double size) {
             return std::ranges::any_of(obstacles, [&](const TriangleMesh& obstacle) { return gap_to(obstacle, size) <= 0.0; });
@@ -160,8 +145,8 @@ void warn_of_missing(const Scene& scene, std::span<const TriangleMesh> starts, s
                 "cloth '" + cloth.name + "' stays " + short_number(gap) + " m beside obstacle '" + scene.obstacles[k].name + "'";
         }
     }
-    warnings.push_back("no cloth can meet an obstacle from where it starts: " + pair +
-                       "; move it there by pose.translation, or say the unit of its mesh");
+    warnings.push_back(finding("out_of_reach", {scene.file}, "no cloth can meet an obstacle from where it starts: " + pair,
+                               "move it there by pose.translation, or say the unit of its mesh"));
 }
 
 }  // namespace
@@ -170,9 +155,9 @@ std::string swapped_text(const std::string& obstacle) {
     return "it is a closed surface and " + obstacle + " is not: were their meshes swapped?";
 }
 
-std::vector<std::string> meeting_warnings(const Scene& scene, std::span<const TriangleMesh> starts,
-                                          std::span<const TriangleMesh> obstacles) {
-    std::vector<std::string> warnings;
+std::vector<Finding> meeting_warnings(const Scene& scene, std::span<const TriangleMesh> starts,
+                                      std::span<const TriangleMesh> obstacles) {
+    std::vector<Finding> warnings;
     warn_of_swapped(scene, starts, obstacles, warnings);
     warn_of_missing(scene, starts, obstacles, warnings);
     return warnings;

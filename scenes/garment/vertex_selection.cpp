@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "common/bounds.h"
 #include "common/text.h"
 #include "percale/error.h"
 
@@ -35,17 +36,13 @@ std::vector<int> selected(const VertexIndices& indices, const TriangleMesh& mesh
 }
 
 std::vector<int> selected(const VertexBox& box, const TriangleMesh& mesh) {
-    Vec3 lowest = mesh.vertices.front(), highest = lowest;
-    for (const Vec3& x : mesh.vertices) {
-        lowest = lowest.cwiseMin(x);
-        highest = highest.cwiseMax(x);
-    }
-    const Vec3 extent = highest - lowest;
+    const Bounds bounds(mesh.vertices);
+    const Vec3 extent = bounds.extent();
     const double flat = box_rounding * extent.maxCoeff();
     const auto inside = [&](const Vec3& x) {
         for (int axis = 0; axis < 3; ++axis) {
             if (extent[axis] <= flat) continue;
-            const double fraction = (x[axis] - lowest[axis]) / extent[axis];
+            const double fraction = (x[axis] - bounds.lowest[axis]) / extent[axis];
             if (fraction < box.lowest[axis] - box_rounding || fraction > box.highest[axis] + box_rounding) return false;
         }
         return true;

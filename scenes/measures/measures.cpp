@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "common/scene_file_error.h"
 #include "common/text.h"
 
 namespace percale::scenes {
@@ -209,12 +210,13 @@ void add_pinch(std::vector<Pinch>& pinches, const StepReport& report) {
     pinch.yielded = std::max(pinch.yielded, report.yielded);
 }
 
-std::string pinch_text(const Pinch& pinch, const Scene& scene) {
-    const auto [first, second] = pinch.obstacles;
-    const auto name = [&](int number) { return "'" + scene.obstacles[static_cast<std::size_t>(number)].name + "'"; };
-    return name(first) + (first == second ? "" : " and " + name(second)) +
-           " pinched cloth; the compliant obstacle (on_pinch) gave way by up to " + short_number(pinch.yielded) + " m, from " +
-           short_number(pinch.from) + " s to " + short_number(pinch.to) + " s";
+Finding pinch_warning(const Pinch& pinch, const Scene& scene) {
+    const ObstacleSpec &first = scene.obstacles.at(static_cast<std::size_t>(pinch.obstacles[0])),
+                       &second = scene.obstacles.at(static_cast<std::size_t>(pinch.obstacles[1]));
+    return finding("pinched", first.place,
+                   "'" + first.name + "'" + (&first == &second ? "" : " and '" + second.name + "'") +
+                       " pinched cloth; the compliant obstacle (on_pinch) gave way by up to " + short_number(pinch.yielded) +
+                       " m, from " + short_number(pinch.from) + " s to " + short_number(pinch.to) + " s");
 }
 
 namespace {

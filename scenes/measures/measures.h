@@ -67,7 +67,7 @@ struct Pinch {
 void add_pinch(std::vector<Pinch>& pinches, const StepReport& report);
 
 /// "'arm' and 'trunk' pinched cloth; the compliant obstacle (on_pinch) gave way by up to 0.012 m, from 1.2 s to 1.7 s".
-std::string pinch_text(const Pinch& pinch, const Scene& scene);
+Finding pinch_warning(const Pinch& pinch, const Scene& scene);
 
 /// The measures of a run; the names of the fields are those of scene files and reports.
 struct Measures {

@@ -81,28 +81,29 @@ std::optional<TriangleMesh> read_own(const std::string& format, const std::strin
 }
 
 /// Reads a file in the format of a model.
-TriangleMesh read_model(const std::string& file, std::vector<std::string>* warnings, const std::string& part) {
+TriangleMesh read_model(const std::string& file, std::vector<Finding>* warnings, const std::string& part) {
     JoinedModel model = read_joined_model(file, part);
     weld(model);
     const std::vector<std::string> clips = clip_names(model.model);
     if (!clips.empty() && warnings != nullptr) {
-        warnings->push_back(file +
-                            ": it is animated, which is left out: the mesh is as it stands in the file; an obstacle's clip "
-                            "plays one of: " +
-                            joined(clips));
+        warnings->push_back(finding("left_out", {file},
+                                    file + ": it is animated, which is left out: the mesh is as it stands in the file",
+                                    "an obstacle's clip plays one of: " + joined(clips)));
     }
     return std::move(model.mesh);
 }
 
-TriangleMesh welded(const TriangleMesh& mesh, double distance, const std::string& file, std::vector<std::string>* warnings) {
+TriangleMesh welded(const TriangleMesh& mesh, double distance, const std::string& file, std::vector<Finding>* warnings) {
     WeldedMesh near = weld_near(mesh, distance);
     const std::string what = "weld = " + short_number(distance) + " m ";
     if (near.mesh.triangles.empty()) throw SceneError(file, what + "leaves no triangle: all are smaller");
-    if (warnings != nullptr && near.joined_vertices == 0)
-        warnings->push_back(file + ": " + what + "joins nothing: no two vertices are so near");
-    if (warnings != nullptr && near.dropped_triangles > 0)
-        warnings->push_back(file + ": " + what + "leaves out " + counted(near.dropped_triangles, "triangle") +
-                            " of which two corners become one");
+    const auto warn = [&](const char* kind, const std::string& effect) {
+        if (warnings != nullptr) warnings->push_back(finding(kind, {file}, file + ": " + what + effect));
+    };
+    if (near.joined_vertices == 0) warn("weld_joins_nothing", "joins nothing: no two vertices are so near");
+    if (near.dropped_triangles > 0)
+        warn("weld_drops_triangles",
+             "leaves out " + counted(near.dropped_triangles, "triangle") + " of which two corners become one");
     return std::move(near.mesh);
 }
 
@@ -116,7 +117,7 @@ std::string extension_of(const std::string& file) {
 
 bool is_mesh_file(const std::string& file) { return is_read(extension_of(file)); }
 
-TriangleMesh import_mesh(const std::string& file, double unit, std::vector<std::string>* warnings, const std::string& part,
+TriangleMesh import_mesh(const std::string& file, double unit, std::vector<Finding>* warnings, const std::string& part,
                          double weld) {
     if (!std::isfinite(unit) || unit <= 0.0) throw SceneError(file, "unit is " + std::to_string(unit) + ", must be above 0");
     check_mesh_file(file);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "common/finding.h"
 #include "meshes/mesh_fields.h"
 #include "meshes/obj_file.h"
 #include "percale/mesh.h"
@@ -24,7 +25,7 @@ bool is_mesh_file(const std::string& file);
 /// null, gets what is left out of the file that makes it move. `part`: an object or group of an OBJ file, or a node or mesh of
 /// what assimp reads (but STL), that is taken alone, with its own vertices; "": all. `weld`, m: vertices within that of an
 /// earlier one become one with it (weld_near), triangles that lose a corner by that are left out, which is warned of; 0: none.
-TriangleMesh import_mesh(const std::string& file, double unit = 1.0, std::vector<std::string>* warnings = nullptr,
+TriangleMesh import_mesh(const std::string& file, double unit = 1.0, std::vector<Finding>* warnings = nullptr,
                          const std::string& part = {}, double weld = 0.0);
 
 /// A mesh and what its file says of its vertices besides where they are: the real properties of a PLY file, of an OBJ file none.

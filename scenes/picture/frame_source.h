@@ -36,7 +36,7 @@ public:
     /// Throws SceneError for a mesh that cannot be read, a field that its frame lacks (and how to get it).
     ShownFrame load(int frame);
     /// What is left out of the files, such as their own motion.
-    const std::vector<std::string>& warnings() const { return warnings_; }
+    const std::vector<Finding>& warnings() const { return warnings_; }
     /// For titles: the folder's or the first file's name.
     const std::string& name() const { return name_; }
 
@@ -62,7 +62,7 @@ private:
     bool is_run_;
     ShownChoice choice_;
     std::vector<Frame> frames_;
-    std::vector<std::string> warnings_;
+    std::vector<Finding> warnings_;
     std::map<std::string, TriangleMesh> bodies_;  // of the frame that was read last: a resting one is read once
 };
 

@@ -139,12 +139,7 @@ Verdict check_frames(std::vector<CertifiedFrame> frames, double distance_limit) 
 }
 
 std::string distance_text(double distance, double limit) {
-    char text[48];
-    if (std::isinf(distance))
-        std::snprintf(text, sizeof text, "beyond %.6g m", limit);
-    else
-        std::snprintf(text, sizeof text, "%.6g m", distance);
-    return text;
+    return (std::isinf(distance) ? "beyond " + short_number(limit, 6) : short_number(distance, 6)) + " m";
 }
 
 bool has_cloth_that_meets(const Verdict& verdict) {

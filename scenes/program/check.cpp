@@ -57,12 +57,6 @@ std::string kept_folder(const CheckOptions& options, const std::string& file) {
     return options.resume + "/" + name;
 }
 
-std::string rounded_text(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return text;
-}
-
 void judge_outcome(Outcome& outcome) {
     outcome.exit_code = outcome.scene.failed() > 0 ? not_as_expected : all_well;
     if (outcome.scene.status == status_word(RunStatus::stopped)) outcome.exit_code = stopped_by_signal;
@@ -73,7 +67,7 @@ void take_kept(Outcome& outcome, const KeptRun& kept, std::span<const Expectatio
     const EndedRun& run = *kept.ended();
     outcome.kept = true;
     outcome.ending =
-        "kept: " + run.status + " earlier: " + std::to_string(run.steps) + " steps, " + rounded_text(run.simulated_s) + " s";
+        "kept: " + run.status + " earlier: " + std::to_string(run.steps) + " steps, " + short_number(run.simulated_s, 6) + " s";
     outcome.scene.status = run.status;
     outcome.scene.reason = run.reason;
     outcome.scene.wall_s = run.wall_s;
@@ -87,8 +81,8 @@ void take_kept(Outcome& outcome, const KeptRun& kept, std::span<const Expectatio
 /// "finished: 60 steps, 1 s, resumed at 0.5 s; run again: ball.obj has changed"
 std::string ending_text(const std::string& status, const RunResult& result, const std::string& why_again) {
     std::string text =
-        status + ": " + std::to_string(result.totals.steps) + " steps, " + rounded_text(result.totals.simulated_s) + " s";
-    if (!result.resumed_at.empty()) text += ", resumed at " + rounded_text(result.resumed_at.back()) + " s";
+        status + ": " + std::to_string(result.totals.steps) + " steps, " + short_number(result.totals.simulated_s, 6) + " s";
+    if (!result.resumed_at.empty()) text += ", resumed at " + short_number(result.resumed_at.back(), 6) + " s";
     return why_again.empty() ? text : text + "; run again: " + why_again;
 }
 

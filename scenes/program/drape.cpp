@@ -34,7 +34,7 @@ int finish(const BuiltScene& built, const DrapeCommand& command, const Drape& dr
     const DrapeVerdict verdict =
         verdict_of(built, command.drape, drape, write_draped(built, command.drape, made.z_up), made.comes_apart);
     if (!command.quiet) {
-        for (const std::string& line : verdict.lines) std::printf("%s\n", line.c_str());
+        for (const Finding& finding : verdict.findings) print_finding(finding);
     }
     if (verdict.wrong.empty()) return all_well;
     std::fprintf(stderr, "percale: %s\n", verdict.wrong.c_str());
@@ -43,12 +43,9 @@ int finish(const BuiltScene& built, const DrapeCommand& command, const Drape& dr
 
 std::size_t print_start(const DrapeOptions& options, const DrapeScene& made, const BuiltScene& built) {
     std::printf("%s onto %s\n", joined(options.garments()).c_str(), options.body().c_str());
-    for (const std::string& note : made.notes) std::printf("%s\n", note.c_str());
-    for (const std::string& text : built.warnings) {
-        const std::string warning = "warning: " + text;
-        const bool reported = std::ranges::find(made.notes, warning) != made.notes.end();  // swapped meshes
-        if (!reported) std::printf("%s\n", warning.c_str());
-    }
+    for (const Finding& finding : made.findings) print_finding(finding);
+    for (const Finding& warning : built.warnings)  // swapped meshes are among what was made
+        if (std::ranges::find(made.findings, warning.what, &Finding::what) == made.findings.end()) print_finding(warning);
     const std::size_t moves = print_start_moves(built.simulation);
     std::fflush(stdout);
     return moves;
@@ -68,7 +65,7 @@ std::optional<int> drape_once(const DrapeCommand& command, const StopSignals& si
     };
     const Drape drape = settle(built, options, stop, again);
     bar.clear();
-    if (!command.quiet) print_moves_after(start_moves, built.simulation);
+    if (!command.quiet) print_start_moves(built.simulation, start_moves, when_sewn);
     const std::string garments = joined(options.garments());
     if (drape.end == DrapeEnd::unsewn) {
         if (!command.quiet)

@@ -212,8 +212,8 @@ int make_pictures(const PictureOptions& options) {
     check_together(options);
     const PictureStyle style = style_of(options);
     std::vector<FrameSource> sources = sources_of(options.paths, choice_of(options, style));
-    for (const std::string& warning : sources[0].warnings())
-        if (!options.quiet) std::printf("warning: %s\n", warning.c_str());
+    for (const Finding& warning : sources[0].warnings())
+        if (!options.quiet) print_finding(warning);
     const std::shared_ptr<Workers> workers = make_workers(options.threads);
     const PictureNews news = news_of(options, style);
     if (!options.movie.empty()) {

@@ -63,7 +63,7 @@ std::size_t print_start(const RunOptions& options, const BuiltScene& built) {
     std::printf("%s: %s into %s", options.scene.c_str(), steps_text(built.scene).c_str(), options.folder.c_str());
     if (!options.resume.empty()) std::printf(", resumed at %.6g s", built.simulation.time());
     std::printf("\n");
-    for (const std::string& warning : plan_of(built).warnings) std::printf("warning: %s\n", warning.c_str());
+    for (const Finding& warning : plan_findings(built, plan_of(built))) print_finding(warning);
     const std::size_t moves = print_start_moves(built.simulation);
     std::fflush(stdout);
     return moves;
@@ -71,7 +71,9 @@ std::size_t print_start(const RunOptions& options, const BuiltScene& built) {
 
 /// Warns as soon as cloth would have torn: such cloth makes steps expensive, and a run may take long to its end.
 void print_torn(const BuiltScene& built, const StepReport& report) {
-    std::printf("warning: at %.3g s %s\n", report.time, strain_warnings(built, report.largest_strain).front().c_str());
+    Finding torn = strain_warnings(built, report.largest_strain).front();
+    torn.what = "at " + short_number(report.time) + " s " + torn.what;
+    print_finding(torn);
     std::fflush(stdout);
 }
 
@@ -116,13 +118,14 @@ void print_summary(const RunOptions& options, const BuiltScene& built, const Run
     const bool maybe_met = result.totals.contacts_most > 0 && !built.scene.cloth_that_meets_cloth();
     const bool finished = result.status == RunStatus::finished;
     if (finished && !built.obstacles.empty() && std::isinf(m.smallest_distance) && !maybe_met)
-        std::printf("warning: no cloth ever met an obstacle; is everything in its place, and in one unit?\n");
+        print_finding(finding("never_met", {}, "no cloth ever met an obstacle", "is everything in its place, and in one unit?"));
     const std::span<const Pinch> pinches = result.totals.pinches;
     for (const Pinch& pinch : pinches.first(std::min(pinches.size(), max_pinches_reported)))
-        std::printf("warning: %s\n", pinch_text(pinch, built.scene).c_str());
+        print_finding(pinch_warning(pinch, built.scene));
     if (pinches.size() > max_pinches_reported)
-        std::printf("warning: and so %zu times more; report.json lists them\n", pinches.size() - max_pinches_reported);
-    for (const std::string& text : end_warnings(built, result)) std::printf("warning: %s\n", text.c_str());
+        print_finding(finding("pinched", {}, "and so " + std::to_string(pinches.size() - max_pinches_reported) + " times more",
+                              "report.json lists them"));
+    for (const Finding& warning : end_warnings(built, result)) print_finding(warning);
     for (const ExpectationResult& expectation : expectations) std::printf("  %s\n", expectation.text.c_str());
 }
 
@@ -199,7 +202,7 @@ int run(RunOptions options) {
                                         .from = from ? &from->run : nullptr,
                                         .from_file = options.resume});
     bar.clear();
-    if (!options.common.quiet) print_moves_after(start_moves, built.simulation);
+    if (!options.common.quiet) print_start_moves(built.simulation, start_moves, when_sewn);
     const std::vector<ExpectationResult> expectations =
         judge_run(expected_of(built.scene, options.common), result.measures, result.timed, built.scene);
     folder.finish(built, result, expectations);

@@ -113,7 +113,7 @@ void bind_plan(py::module_& module) {
             "scheme", [](const ScenePlan& plan) { return plan.scheme_word; }, "As in settings.")
         .def_readonly("scheme_reason", &ScenePlan::scheme_reason, "Why, where scheme is auto.")
         .def_readonly("stable_step", &ScenePlan::stable_step, "s, longest stable step, estimated; infinity: always stable.")
-        .def_readonly("warnings", &ScenePlan::warnings, "What will go wrong or be inexact.")
+        .def_property_readonly("warnings", &ScenePlan::warning_texts, "What will go wrong or be inexact.")
         .def_readonly("vertices", &ScenePlan::vertices)
         .def_readonly("pinned_vertices", &ScenePlan::pinned_vertices)
         .def_property_readonly(

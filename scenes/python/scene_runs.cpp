@@ -116,15 +116,6 @@ private:
     bool stop_ = false;
 };
 
-std::vector<std::string> run_warnings(const BuiltScene& built, const RunResult& result) {
-    std::vector<std::string> warnings = result.plan.warnings;
-    for (const StartMove& move : built.simulation.start_repair()) warnings.push_back(start_move_text(move));
-    for (const Pinch& pinch : result.totals.pinches) warnings.push_back(pinch_text(pinch, built.scene));
-    const std::vector<std::string> at_end = end_warnings(built, result);
-    warnings.insert(warnings.end(), at_end.begin(), at_end.end());
-    return warnings;
-}
-
 void bind_scene(py::module_& module) {
     py::class_<Scene>(module, "Scene", "A scene file, checked: what cloth, on what bodies, for how long, what is expected.")
         .def_readonly("file", &Scene::file, "As given; \"scene\" for a dict.")
@@ -250,6 +241,9 @@ void bind_run(py::module_& module) {
             "With frames = True: a dict each: index, time (s), cloths and obstacles ((n, 3) arrays by name, m, world),\n"
             "intersections, deepest_penetration, smallest_distance (m).")
         .def_readonly("warnings", &SceneRun::warnings, "What is not quite as the scene says, and what was repaired.")
+        .def_property_readonly(
+            "findings", [](const SceneRun& run) { return py::object(parsed_json(run.report)["findings"]); },
+            "The same, a dict each: severity, kind, place, what, fix.")
         .def_readonly("state_hash", &SceneRun::state_hash, "Of the last state.")
         .def("__repr__", [](const SceneRun& run) {
             return "<percale.RunResult: " + scenes::verdict_of_run(run.result).word + ", " +
@@ -301,7 +295,7 @@ std::shared_ptr<SceneRun> run_with(const Scene& scene, const RunWishes& wishes) 
         run->obstacle_names = names_of(built.scene.obstacles);
         Recorder(built, wishes, cancel, *run).record();
         run->state_hash = built.simulation.state_hash();
-        run->warnings = run_warnings(built, run->result);
+        run->warnings = finding_texts(run_findings(built, run->result));
     });
     return run;
 }

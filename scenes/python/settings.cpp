@@ -106,11 +106,11 @@ std::string fabric_repr(const Fabric& fabric) {
 /// The keys of a table of a scene file, checked; former names are a DeprecationWarning.
 TomlNode checked_part(const py::dict& keys, const std::string& path) {
     TomlNode node = node_of(keys);
-    std::vector<std::string> notes;
+    std::vector<scenes::Finding> warnings;
     FaultList first(false);
-    scenes::rename_former_keys(node, path, notes, first);
-    for (const std::string& note : notes)
-        if (PyErr_WarnEx(PyExc_DeprecationWarning, note.c_str(), 1) != 0) throw py::error_already_set();
+    scenes::rename_former_keys(node, path, warnings, first);
+    for (const std::string& text : scenes::finding_texts(warnings))
+        if (PyErr_WarnEx(PyExc_DeprecationWarning, text.c_str(), 1) != 0) throw py::error_already_set();
     scenes::check_part(node, path, first);
     return node;
 }

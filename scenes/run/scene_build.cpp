@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 #include "common/scene_file_error.h"
 #include "common/text.h"
@@ -48,9 +49,10 @@ std::string reported_of(const Spec& spec, const SceneError& error) {
     return "'" + spec.name + "': " + (known ? error.reason() : error.what());
 }
 
-/// Builds a cloth or an obstacle; errors name its place in the scene file.
+/// Builds a cloth or an obstacle; errors and warnings name its place in the scene file.
 template <class Spec, class Work>
-void at_place_of(const Spec& spec, Work work) {
+void at_place_of(const Spec& spec, std::vector<Finding>& warnings, Work work) {
+    const std::size_t before = warnings.size();
     try {
         work();
     } catch (const SceneError& error) {
@@ -58,6 +60,7 @@ void at_place_of(const Spec& spec, Work work) {
         if (spec.place.line == 0 && error.subject().starts_with(spec.place.file + ":")) throw;
         fail_at(spec.place, reported_of(spec, error));
     }
+    for (Finding& warning : std::span(warnings).subspan(before)) warning.place = place_text(spec.place);
 }
 
 std::unique_ptr<ContactDetector> detector_for(const Scene& scene) {
@@ -89,10 +92,12 @@ Fabric fabric_on(BuiltScene& built, const ClothSpec& cloth, const TriangleMesh& 
     if (mesh.is_grid() || rest.warp != Vec3::Zero() || !built.scene.preset_moduli.contains(cloth.fabric)) return fabric;
     const Fabric result = isotropic(fabric);
     const auto [warp, weft] = *fabric.stretch_stiffness;
-    built.warnings.push_back(
+    built.warnings.push_back(finding(
+        "isotropic_fabric", {},
         reported(cloth) + ": its mesh does not say where warp is (key warp, or rest = \"uv\"); instead of stretch_stiffness = [" +
-        number_text(warp) + ", " + number_text(weft) + "] N/m, fabric." + cloth.fabric + " has " +
-        number_text(result.stretch_stiffness->front()) + " N/m in every direction there, what belongs to its shear_stiffness");
+            number_text(warp) + ", " + number_text(weft) + "] N/m, fabric." + cloth.fabric + " has " +
+            number_text(result.stretch_stiffness->front()) +
+            " N/m in every direction there, what belongs to its shear_stiffness"));
     return result;
 }
 
@@ -119,9 +124,11 @@ void pin_cloth(BuiltScene& built, const ClothSpec& cloth) {
 void warn_of_passed_frames(BuiltScene& built, const ObstacleSpec& obstacle, const BodyShapes& shapes) {
     const double step = built.scene.step.time_step;
     if (obstacle.clip || built.scene.step.adaptive || step <= (1.0 + frame_rounding) * shapes.frame_time()) return;
-    built.warnings.push_back(reported(obstacle) + ": its frames are " + short_number(shapes.frame_time()) +
-                             " s apart, step.time_step = " + short_number(step) + " s passes some by; take step.time_step = " +
-                             short_number(shapes.frame_time()) + " or less where none is to be missed");
+    built.warnings.push_back(
+        finding("passed_frames", {},
+                reported(obstacle) + ": its frames are " + short_number(shapes.frame_time()) +
+                    " s apart, step.time_step = " + short_number(step) + " s passes some by",
+                "take step.time_step = " + short_number(shapes.frame_time()) + " or less where none is to be missed"));
 }
 
 /// The fraction of a mesh's area in triangles with an edge above a length.
@@ -142,9 +149,11 @@ void warn_of_coarse_compliant(BuiltScene& built, const ObstacleSpec& obstacle, c
     for (const ClothSpec& cloth : built.scene.cloths) thickness = std::min(thickness, fabric_of(built.scene, cloth).thickness);
     const double longest = coarse_edge_thicknesses * thickness, share = coarse_share(mesh, longest / obstacle.pose.scale);
     if (share <= reported_coarse_ratio) return;
-    built.warnings.push_back(reported(obstacle) + ": on_pinch = \"yield\", but " + percent_text(share) +
-                             " of its surface has edges above " + short_number(longest) +
-                             " m, and it gives way at vertices alone; refine its mesh");
+    built.warnings.push_back(finding("coarse_compliant", {},
+                                     reported(obstacle) + ": on_pinch = \"yield\", but " + percent_text(share) +
+                                         " of its surface has edges above " + short_number(longest) +
+                                         " m, and it gives way at vertices alone",
+                                     "refine its mesh"));
 }
 
 void add_obstacle(BuiltScene& built, const ObstacleSpec& obstacle) {
@@ -251,22 +260,19 @@ void check_start(BuiltScene& built) {
 void add_doubts(BuiltScene& built) {
     std::vector<TriangleMesh> obstacles;
     for (std::size_t k = 0; k < built.obstacles.size(); ++k) obstacles.push_back(obstacle_now(built, k));
-    for (const auto& doubts :
-         {cloth_warnings(built.scene, built.cloth_meshes), meeting_warnings(built.scene, built.cloth_meshes, obstacles)})
-        built.warnings.insert(built.warnings.end(), doubts.begin(), doubts.end());
+    append_findings(cloth_warnings(built.scene, built.cloth_meshes), built.warnings);
+    append_findings(meeting_warnings(built.scene, built.cloth_meshes, obstacles), built.warnings);
 }
 
 /// The warning of cloth that would have torn, with the frequent cause.
-std::string torn_text(const Scene& scene, double strain) {
-    std::string text = "the largest strain is " + percent_text(strain) + ": cloth would have torn";
+Finding torn_warning(const Scene& scene, double strain) {
+    Finding warning = finding("torn", {scene.file}, "the largest strain is " + percent_text(strain) + ": cloth would have torn");
     const auto moving = std::ranges::find_if(scene.obstacles, [](const ObstacleSpec& o) { return obstacle_moves(o); });
-    for (const ClothSpec& cloth : scene.cloths) {
-        if (moving == scene.obstacles.end() || !has_pins_in_world(cloth)) continue;
-        text += "; the pins of " + cloth.name + " stay in the world, pin = { box = ..., to = \"" + moving->name +
-                "\" } holds them to a body";
-        break;
-    }
-    return text;
+    const auto held = std::ranges::find_if(scene.cloths, [](const ClothSpec& cloth) { return has_pins_in_world(cloth); });
+    if (moving != scene.obstacles.end() && held != scene.cloths.end())
+        warning.fix = "the pins of " + held->name + " stay in the world, pin = { box = ..., to = \"" + moving->name +
+                      "\" } holds them to a body";
+    return warning;
 }
 
 /// When each obstacle keeps its shape, s.
@@ -312,31 +318,34 @@ TriangleMesh obstacle_now(const BuiltScene& built, std::size_t obstacle) {
     return mesh;
 }
 
-std::vector<std::string> strain_warnings(const BuiltScene& built, double largest_strain) {
-    std::vector<std::string> warnings;
-    if (largest_strain > torn_strain) warnings.push_back(torn_text(built.scene, largest_strain));
+std::vector<Finding> strain_warnings(const BuiltScene& built, double largest_strain) {
+    std::vector<Finding> warnings;
+    if (largest_strain > torn_strain) warnings.push_back(torn_warning(built.scene, largest_strain));
     for (std::size_t k = 0; k < built.cloths.size(); ++k) {
         const ClothSpec& cloth = built.scene.cloths[k];
         const std::optional<double> limit = built.scene.fabrics.at(cloth.fabric).strain_limit;
         if (!limit) continue;
         const double strain = built.simulation.largest_strain(built.cloths[k]);
         if (strain <= (1.0 + passed_limit_ratio) * *limit) continue;
-        warnings.push_back("an edge of '" + cloth.name + "' is strained by " + percent_text(strain) +
-                           ", beyond its strain_limit of " + percent_text(*limit) +
-                           "; a sudden load passes it for some steps, one of more than twice the edge's stiffness for good");
+        warnings.push_back(
+            finding("passed_strain_limit", cloth.place,
+                    "an edge of '" + cloth.name + "' is strained by " + percent_text(strain) + ", beyond its strain_limit of " +
+                        percent_text(*limit) +
+                        "; a sudden load passes it for some steps, one of more than twice the edge's stiffness for good"));
     }
     return warnings;
 }
 
-std::vector<std::string> tight_warnings(const BuiltScene& built) {
-    std::vector<std::string> warnings;
+std::vector<Finding> tight_warnings(const BuiltScene& built, const std::string& scale) {
+    std::vector<Finding> warnings;
     for (std::size_t k = 0; k < built.cloths.size(); ++k) {
         const double strain = built.simulation.largest_strain(built.cloths[k]);
         const ClothSpec& cloth = built.scene.cloths[k];
         const bool held = has_pins(cloth) || built.scene.pins_have_events(cloth) || built.scene.is_filled(cloth);
         if (held || cloth.grid || strain < tight_strain || strain > torn_strain) continue;
-        warnings.push_back("'" + built.scene.cloths[k].name + "' is stretched by " + percent_text(strain) +
-                           " at its tightest: it may be too small for the body");
+        warnings.push_back(finding("tight", cloth.place,
+                                   "'" + cloth.name + "' is stretched by " + percent_text(strain) +
+                                       " at its tightest: it may be too small for the body (" + scale + " makes it larger)"));
     }
     return warnings;
 }
@@ -364,12 +373,13 @@ std::string unsewn_text(const WidestGap& gap) {
            "; does its way lie around or through the body?";
 }
 
-std::vector<std::string> seam_warnings(const BuiltScene& built) {
-    std::vector<std::string> warnings;
+std::vector<Finding> seam_warnings(const BuiltScene& built) {
+    std::vector<Finding> warnings;
     for (const BuiltSeam& seam : built.seams) {
         if (built.simulation.time() < seam.closed_at) continue;
         const WidestGap gap = gap_of(built, seam);
-        if (gap.width > widest_sewn_gap) warnings.push_back(unsewn_text(gap));
+        if (gap.width > widest_sewn_gap)
+            warnings.push_back(finding("unsewn", built.scene.cloths[seam.sewn.cloths[0]].place, unsewn_text(gap)));
     }
     return warnings;
 }
@@ -380,7 +390,7 @@ std::vector<ClothStitches> sewn_stitches(const BuiltScene& built) {
     return sewn;
 }
 
-TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings) {
+TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle, std::vector<Finding>* warnings) {
     if (obstacle.mesh.empty()) return shape_mesh(obstacle.shape);
     if (obstacle.bends()) return BodyShapes(scene, obstacle, warnings).first();
     check_still(scene, obstacle);
@@ -404,10 +414,11 @@ BuiltScene build_scene(const Scene& given, const std::atomic<bool>* cancel) {
                      .seams = {},
                      .warnings = scene.warnings};
     for (const ClothSpec& cloth : scene.cloths) {
-        at_place_of(cloth, [&] { add_cloth(built, cloth); });
+        at_place_of(cloth, built.warnings, [&] { add_cloth(built, cloth); });
         pin_cloth(built, cloth);
     }
-    for (const ObstacleSpec& obstacle : scene.obstacles) at_place_of(obstacle, [&] { add_obstacle(built, obstacle); });
+    for (const ObstacleSpec& obstacle : scene.obstacles)
+        at_place_of(obstacle, built.warnings, [&] { add_obstacle(built, obstacle); });
     add_doubts(built);
     for (const SeamSpec& seam : scene.seams) add_seam(built, seam);
     sew_other_patterns(built);

@@ -35,7 +35,7 @@ struct BuiltScene {
     std::vector<std::shared_ptr<BodyShapes>> shapes = {};  // of each obstacle; null: it is rigid
     std::vector<std::vector<SewnSeam>> pattern_seams;      // of each cloth; of one without a pattern none
     std::vector<BuiltSeam> seams;               // in the order of scene.seams, a pattern's each apart; then those of patterns
-    std::vector<std::string> warnings;          // what is not quite as the scene file says
+    std::vector<Finding> warnings;              // what is not quite as the scene file says
     std::optional<ScenePlan> plan = {};         // before the first step, where it was kept (scene_plan.h)
     std::vector<CleaningReport> cleaning = {};  // of each obstacle, likewise
 };
@@ -48,11 +48,11 @@ TriangleMesh obstacle_now(const BuiltScene& built, std::size_t obstacle);
 
 /// Warnings of cloth that would have torn at the largest strain of a run, and of cloth that is now strained beyond its
 /// strain_limit by more than a tenth of it.
-std::vector<std::string> strain_warnings(const BuiltScene& built, double largest_strain);
+std::vector<Finding> strain_warnings(const BuiltScene& built, double largest_strain);
 
 /// Warnings of garments that are tight now: one that is too small for a body fits it all the same, springs stretch as far as they
-/// have to. Cloth that is pinned or filled is stretched by that, and a grid is no garment.
-std::vector<std::string> tight_warnings(const BuiltScene& built);
+/// have to. Cloth that is pinned or filled is stretched by that, and a grid is no garment. `scale`: what makes it larger.
+std::vector<Finding> tight_warnings(const BuiltScene& built, const std::string& scale);
 
 /// The stitch that is farthest open.
 struct WidestGap {
@@ -70,14 +70,14 @@ std::optional<double> largest_seam_gap(const BuiltScene& built);
 std::string unsewn_text(const WidestGap& gap);
 
 /// Warnings of seams that should have closed and are open by more than `widest_sewn_gap`.
-std::vector<std::string> seam_warnings(const BuiltScene& built);
+std::vector<Finding> seam_warnings(const BuiltScene& built);
 
 /// The stitches of all seams.
 std::vector<ClothStitches> sewn_stitches(const BuiltScene& built);
 
 /// The mesh of an obstacle with its unit applied, its pose not; not yet checked (check_mesh). Throws SceneError for a file that
 /// cannot be read.
-TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle, std::vector<std::string>* warnings = nullptr);
+TriangleMesh obstacle_mesh(const Scene& scene, const ObstacleSpec& obstacle, std::vector<Finding>* warnings = nullptr);
 
 /// Reads meshes, selects pins, makes the detector and the simulation, and checks the start (Simulation::prepare), which may move
 /// cloth out of obstacles. Throws SceneError with the place of the cloth, obstacle, event or key in the scene file; where the

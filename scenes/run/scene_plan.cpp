@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
+#include "common/finding_json.h"
+#include "common/scene_file_error.h"
 #include "common/text.h"
 #include "frames/frame_formats.h"
 #include "run/obstacle_motion.h"
@@ -16,6 +17,9 @@ namespace percale::scenes {
 using nlohmann::ordered_json;
 
 namespace {
+
+/// Thicknesses that a repair of the start may move cloth before that is a warning.
+constexpr double far_start_move = 2.0;
 
 ScriptedChanges changes_of(const Scene& scene) {
     ScriptedChanges changes;
@@ -72,18 +76,34 @@ std::vector<CleaningReport> cleaning_of(const BuiltScene& built) {
 void keep_plan(BuiltScene& built) { built.plan = plan_of(built); }
 void keep_cleaning(BuiltScene& built) { built.cleaning = cleaning_of(built); }
 
-ScenePlan plan_of(const BuiltScene& built) {
-    if (built.plan) return *built.plan;
-    ScenePlan plan = built.simulation.plan(changes_of(built.scene));
-    plan.warnings.insert(plan.warnings.begin(), built.warnings.begin(), built.warnings.end());
-    const double end = built.scene.latest_end();
-    const auto late = std::ranges::find_if(built.scene.events, [&](const EventSpec& event) { return event.time > end; });
-    if (late != built.scene.events.end()) {  // their times ascend
-        plan.warnings.push_back(std::to_string(built.scene.events.end() - late) + " of " +
-                                counted(static_cast<long>(built.scene.events.size()), "event") + " would come after the end, " +
-                                short_number(end) + " s, the first at " + short_number(late->time) + " s");
+ScenePlan plan_of(const BuiltScene& built) { return built.plan ? *built.plan : built.simulation.plan(changes_of(built.scene)); }
+
+std::vector<Finding> plan_findings(const BuiltScene& built, const ScenePlan& plan) {
+    std::vector<Finding> found = built.warnings;
+    const Scene& scene = built.scene;
+    for (const PlanWarning& warning : plan.warnings)
+        found.push_back(finding(warning.kind, scene.scheme_place, warning.what, warning.fix));
+    const double end = scene.latest_end();
+    const auto late = std::ranges::find_if(scene.events, [&](const EventSpec& event) { return event.time > end; });
+    if (late == scene.events.end()) return found;  // their times ascend
+    found.push_back(finding("late_events", late->place,
+                            std::to_string(scene.events.end() - late) + " of " +
+                                counted(static_cast<long>(scene.events.size()), "event") + " would come after the end, " +
+                                short_number(end) + " s, the first at " + short_number(late->time) + " s"));
+    return found;
+}
+
+std::vector<Finding> start_findings(const BuiltScene& built) {
+    std::vector<Finding> found;
+    for (const StartMove& move : built.simulation.start_repair()) {
+        const ClothSpec& cloth = built.scene.cloths[static_cast<std::size_t>(move.cloth)];
+        const bool far = move.largest_move > far_start_move * built.scene.fabrics.at(cloth.fabric).thickness;
+        found.push_back(finding("start_moved", cloth.place, start_move_text(move),
+                                "move it there by pose.translation, enlarge it by pose.scale if it is too small for what it is "
+                                "around, or set step.start = \"refuse\" to have it refused",
+                                far ? Severity::warning : Severity::note));
     }
-    return plan;
+    return found;
 }
 
 OutputSize output_size_of(const BuiltScene& built) {
@@ -120,7 +140,7 @@ std::string plan_text(const BuiltScene& built) {
     const ScenePlan plan = plan_of(built);
     std::string text = line("title", built.scene.title) + line("steps", steps_text(built.scene) + ", " + plan.scheme_word);
     if (!plan.scheme_reason.empty()) text += line("scheme", plan.scheme_word + ": " + plan.scheme_reason);
-    for (const std::string& warning : plan.warnings) text += line("warning", warning);
+    for (const Finding& warning : plan_findings(built, plan)) text += line("warning", finding_text(warning));
     text += line("vertices", std::to_string(plan.vertices) + ", " + std::to_string(plan.pinned_vertices) + " pinned");
     text += line("springs", springs_text(plan.springs));
     if (plan.springs.triangle > 0) text += line("membrane", counted(plan.springs.triangle, "triangle"));
@@ -152,7 +172,9 @@ std::string plan_json(const BuiltScene& built) {
     json["scene"] = built.scene.file;
     json["scheme"] = plan.scheme_word;
     if (!plan.scheme_reason.empty()) json["scheme_reason"] = plan.scheme_reason;
-    json["warnings"] = plan.warnings;
+    const std::vector<Finding> findings = plan_findings(built, plan);
+    json["warnings"] = finding_texts(findings);
+    json["findings"] = findings;
     json["time_step_s"] = built.scene.step.adaptive ? ordered_json("auto") : ordered_json(built.scene.step.time_step);
     json["steps"] = built.scene.step.adaptive ? ordered_json(nullptr) : ordered_json(count.steps);
     json["until_rest"] = built.scene.until_rest;
@@ -173,8 +195,7 @@ std::string plan_json(const BuiltScene& built) {
     const OutputSize output = output_size_of(built);
     json["frames"] = output.frames;
     json["frame_bytes"] = output.bytes;
-    json["skipped"] = ordered_json::array();
-    for (const Skip& skip : plan.skipped) json["skipped"].push_back({{"what", skip.what}, {"why", skip.why}});
+    json["skipped"] = plan.skipped;
     return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

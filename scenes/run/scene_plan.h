@@ -13,6 +13,13 @@ std::string steps_text(const Scene& scene);
 /// The plan of a built scene before its first step, with the motion and events that its file holds.
 ScenePlan plan_of(const BuiltScene& built);
 
+/// Warnings of a built scene before its first step: what is not as its file says, what its plan expects to go wrong, events that
+/// come too late. `plan`: plan_of it.
+std::vector<Finding> plan_findings(const BuiltScene& built, const ScenePlan& plan);
+
+/// What the start moved out of obstacles and cloth: notes, and warnings where that is far.
+std::vector<Finding> start_findings(const BuiltScene& built);
+
 /// What was left out of each obstacle's mesh.
 std::vector<CleaningReport> cleaning_of(const BuiltScene& built);
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <set>
 
+#include "common/text.h"
 #include "percale/certify.h"
 
 namespace percale::scenes {
@@ -48,23 +49,15 @@ TriangleMesh offending_triangles(std::span<const TriangleMesh> cloths, const Tri
 }
 
 std::string start_move_text(const StartMove& move, std::string_view when) {
-    char farthest[32];
-    std::snprintf(farthest, sizeof farthest, "%.3g", move.largest_move);
-    if (move.obstacle < 0)
-        return std::to_string(move.vertices_moved) + " vertices of " + move.cloth_name +
-               " moved out of cloth that they crossed " + std::string(when) + ", the farthest by " + farthest + " m";
-    return std::to_string(move.vertices_moved) + " vertices of " + move.cloth_name + " moved out of " + move.obstacle_name + " " +
-           std::string(when) + ", the farthest by " + farthest + " m";
+    return std::to_string(move.vertices_moved) + " vertices of " + move.cloth_name + " moved out of " +
+           (move.obstacle < 0 ? "cloth that they crossed" : move.obstacle_name) + " " + std::string(when) + ", the farthest by " +
+           short_number(move.largest_move) + " m";
 }
 
-std::size_t print_start_moves(const Simulation& simulation) {
-    for (const StartMove& move : simulation.start_repair()) std::printf("%s\n", start_move_text(move).c_str());
+std::size_t print_start_moves(const Simulation& simulation, std::size_t first, std::string_view when) {
+    for (const StartMove& move : simulation.start_repair().subspan(first))
+        std::printf("%s\n", start_move_text(move, when).c_str());
     return simulation.start_repair().size();
-}
-
-void print_moves_after(std::size_t start_moves, const Simulation& simulation) {
-    for (const StartMove& move : simulation.start_repair().subspan(start_moves))
-        std::printf("%s\n", start_move_text(move, "when the seams had closed").c_str());
 }
 
 }  // namespace percale::scenes

@@ -28,9 +28,9 @@ TriangleMesh offending_triangles(std::span<const TriangleMesh> cloths, const Tri
 /// "12 vertices of sheet moved out of ball before the start, the farthest by 0.021 m"
 std::string start_move_text(const StartMove& move, std::string_view when = "before the start");
 
-/// Prints what a scene's start needed, a line each; returns how many.
-std::size_t print_start_moves(const Simulation& simulation);
-/// Prints the moves after the first `start_moves`, made when seams had closed.
-void print_moves_after(std::size_t start_moves, const Simulation& simulation);
+constexpr std::string_view when_sewn = "when the seams had closed";
+
+/// Prints what a scene's start needed, or closed seams, from the `first` move on, a line each; returns how many there are in all.
+std::size_t print_start_moves(const Simulation& simulation, std::size_t first = 0, std::string_view when = "before the start");
 
 }  // namespace percale::scenes

@@ -46,7 +46,7 @@ StressWatch::StressWatch(const Simulation& simulation, std::span<const ClothId> 
     : cloths_(cloths.begin(), cloths.end()), held_(held.begin(), held.end()) {
     const ScenePlan plan = simulation.plan();
     backward_euler_ = plan.scheme == Scheme::backward_euler;
-    figures.said = joined(plan.warnings);
+    figures.said = joined(plan.warning_texts());
     const StepEnergy energy = simulation.energy();
     start_ = before_ = energy.total();
     inner_ = energy.kinetic + energy.elastic;

@@ -73,7 +73,8 @@ def test_a_plan_counts_what_there_is(ball):
     assert ('drag of the air', 'no wind was ever set') in plan.skipped
     stiff = percale.Simulation(scheme='rk4')
     stiff.add_cloth(percale.make_grid(1, 1, 9, 9), SHEET)
-    assert stiff.plan().warnings
+    (warning,) = stiff.plan().warnings
+    assert warning.startswith('time_step ') and 'longest stable one of rk4' in warning
 
 
 def test_repairs_of_a_start_are_told():

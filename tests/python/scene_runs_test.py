@@ -89,6 +89,16 @@ def test_a_result_tells_of_its_run():
     assert repr(result) == '<percale.RunResult: finished, 12 steps>'
 
 
+def test_what_is_found_in_a_run_has_kinds():
+    late = {**SCENE, 'event': [{'time': 5.0, 'wind': [1.0, 0.0, 0.0]}]}
+    result = percale.run(late)
+    (finding,) = [f for f in result.findings if f['kind'] == 'late_events']
+    assert finding['severity'] == 'warning' and finding['fix'] == '' and finding['place']
+    assert finding['what'] in result.warnings and finding['what'] in result.report['warnings']
+    assert result.findings == result.report['findings']
+    assert 'late_events' in [f['kind'] for f in percale.plan(late)['findings']]
+
+
 def test_frames_are_kept_where_they_are_asked_for():
     frames = percale.run(SCENE, frames=True).frames
     assert [frame['index'] for frame in frames] == [0, 1, 2]

@@ -12,6 +12,15 @@ struct Skip {
     std::string what, why;
 };
 
+/// An expected failure or inaccuracy. `kind`: a short name that stays the same, unstable_step; `what`: a sentence, with numbers;
+/// `fix`: what helps, "" where nothing is known.
+struct PlanWarning {
+    std::string kind = {}, what = {}, fix = {};
+
+    /// "WHAT; FIX", or "WHAT" where there is no fix.
+    std::string text() const { return fix.empty() ? what : what + "; " + fix; }
+};
+
 /// Later changes that the caller knows and the simulation does not yet.
 struct ScriptedChanges {
     bool obstacles = false;  // move
@@ -36,7 +45,7 @@ struct ScenePlan {
     std::string scheme_word = {};            // as in a scene file
     std::string scheme_reason = {};          // why, where they do
     double stable_step = 0.0;                // s, longest stable one of the scheme, estimated; infinity if it is always stable
-    std::vector<std::string> warnings = {};  // expected failures and inaccuracies
+    std::vector<PlanWarning> warnings = {};
     int vertices = 0;
     int pinned_vertices = 0;
     SpringCounts springs = {};
@@ -45,6 +54,12 @@ struct ScenePlan {
     std::vector<Skip> skipped = {};
     double memory_bytes = 0.0;        // predicted; model/plan_costs.h describes how
     double evaluations_a_step = 0.0;  // predicted cost of a step, in evaluations of all spring forces
+
+    std::vector<std::string> warning_texts() const {
+        std::vector<std::string> texts;
+        for (const PlanWarning& warning : warnings) texts.push_back(warning.text());
+        return texts;
+    }
 };
 
 }  // namespace percale

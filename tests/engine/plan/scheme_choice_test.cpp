@@ -24,9 +24,14 @@ World sheet(const StepSettings& settings, int side = 9, double stiffer = 1.0) {
     return world;
 }
 
-std::vector<std::string> warnings_of(const World& world) {
+/// "KIND: TEXT" of each warning.
+std::string warnings_of(const World& world) {
     const StepPlan& plan = world.scene.plan;
-    return step_warnings(world.scene, world.state.cloth, plan, stable_step(world.scene, world.state.cloth, plan.scheme));
+    const double stable = stable_step(world.scene, world.state.cloth, plan.scheme);
+    std::string text;
+    for (const PlanWarning& warning : step_warnings(world.scene, world.state.cloth, plan, stable))
+        text += warning.kind + ": " + warning.text();
+    return text;
 }
 
 /// Largest speed after some steps from a small disturbance, without gravity.
@@ -131,37 +136,31 @@ TEST_CASE("The chosen scheme takes as many parts as it needs to be stable") {
 }
 
 TEST_CASE("Warnings name what will fail, and there are none where nothing will") {
-    const auto warnings = [](const StepSettings& settings, int side = 9) {
-        const World world = sheet(settings, side);
-        std::string text;
-        for (const std::string& warning : warnings_of(world)) text += warning;
-        return text;
-    };
+    const auto warnings = [](const StepSettings& settings, int side = 9) { return warnings_of(sheet(settings, side)); };
     CHECK(warnings({}).empty());
     CHECK(warnings({.time_step = 1e-4, .scheme = Scheme::rk4}).empty());
-    CHECK(mentions(warnings({.time_step = 0.02, .scheme = Scheme::rk4}), {"time_step 0.02 s", "rk4", "stable"}));
-    CHECK(mentions(warnings({.time_step = 1e-5, .scheme = Scheme::forward_euler}), {"forward_euler", "grow"}));
-    CHECK(mentions(warnings({.scheme = Scheme::trapezoid}), {"trapezoid", "tr_bdf2"}));
-    CHECK(mentions(warnings({.scheme = Scheme::implicit_midpoint}), {"implicit_midpoint", "gain energy"}));
+    CHECK(mentions(warnings({.time_step = 0.02, .scheme = Scheme::rk4}), {"unstable_step: time_step 0.02 s", "rk4", "stable"}));
+    CHECK(mentions(warnings({.time_step = 1e-5, .scheme = Scheme::forward_euler}),
+                   {"growing_scheme: forward_euler", "grow; use rk4"}));
+    CHECK(mentions(warnings({.scheme = Scheme::trapezoid}), {"ringing_step: ", "trapezoid", "tr_bdf2"}));
+    CHECK(mentions(warnings({.scheme = Scheme::implicit_midpoint}), {"ringing_step: ", "implicit_midpoint", "gain energy; use"}));
     CHECK(warnings({.time_step = 1e-3, .scheme = Scheme::trapezoid}).empty());
     CHECK(warnings({.newton_iterations = 1}).empty());
-    CHECK(mentions(warnings({.newton_iterations = 1}, 65), {"newton_iterations = 1", "4225"}));
+    CHECK(mentions(warnings({.newton_iterations = 1}, 65), {"one_newton_iteration: newton_iterations = 1", "4225"}));
 }
 
 TEST_CASE("Slivers of cloth of moduli cause a warning where the solver is iterative") {
     const auto warned = [](double height, const Fabric& fabric, LinearSolver solver) {
         TriangleMesh mesh{.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 0, height}, {0.5, 0, -0.5}},
                           .triangles = {{0, 2, 1}, {0, 1, 3}}};
-        const World world = make_world(cloth_model(mesh, fabric), mesh.vertices, {.linear_solver = solver});
-        std::string text;
-        for (const std::string& warning : warnings_of(world)) text += warning;
-        return text;
+        return warnings_of(make_world(cloth_model(mesh, fabric), mesh.vertices, {.linear_solver = solver}));
     };
     const Fabric moduli = fabric_preset("silk");
     Fabric isotropic = moduli;
     isotropic.stretch_stiffness = std::array{100.0, 100.0};
     isotropic.shear_stiffness.reset();
-    CHECK(mentions(warned(0.005, isotropic, LinearSolver::multigrid), {"cloth 'cloth'", "200 times as long as high", "direct"}));
+    CHECK(mentions(warned(0.005, isotropic, LinearSolver::multigrid),
+                   {"slivers_of_moduli: cloth 'cloth'", "200 times as long as high", "direct"}));
     CHECK(warned(0.005, isotropic, LinearSolver::direct).empty());
     CHECK(warned(0.005, isotropic, LinearSolver::automatic).empty());  // so few vertices are solved directly
     CHECK(warned(0.02, isotropic, LinearSolver::multigrid).empty());

@@ -147,15 +147,21 @@ TEST_CASE("schemes that grow, ring or stop too early are warned of with what men
         more.insert(more.begin(), pinned.begin(), pinned.end());
         return examined(falling_sheet(), more);
     };
-    CHECK(severity(with({{"step.scheme", "forward_euler"}}), "scheme") == "warning");
-    CHECK(find(with({{"step.scheme", "forward_euler"}}), "scheme")->fix.find("rk4") != std::string::npos);
+    const auto growing = with({{"step.scheme", "forward_euler"}});
+    REQUIRE(severity(growing, "growing_scheme") == "warning");
+    CHECK(find(growing, "growing_scheme")->fix == "use rk4 or an implicit scheme");
+    CHECK(find(growing, "growing_scheme")->place.starts_with("--set step.scheme"));
     const Override stiff = {"fabric.sheet.springs.structural", "1e7"};
-    CHECK(find(with({{"step.scheme", "trapezoid"}, stiff}), "scheme")->fix.find("backward_euler") != std::string::npos);
-    CHECK(severity(with({{"step.scheme", "trapezoid"}}), "scheme") == "none");
+    const auto ringing = with({{"step.scheme", "trapezoid"}, stiff});
+    REQUIRE(severity(ringing, "ringing_step") == "warning");
+    CHECK(find(ringing, "ringing_step")->fix.find("backward_euler") != std::string::npos);
+    CHECK(severity(with({{"step.scheme", "trapezoid"}}), "ringing_step") == "none");
     const Override fine = {"cloth.sheet.grid.vertices", "[70, 70]"}, one = {"step.newton_iterations", "1"},
                    implicit = {"step.scheme", "backward_euler"};
-    CHECK(find(with({implicit, fine, one}), "scheme")->fix.find("allow more") != std::string::npos);
-    CHECK(severity(with({implicit, fine}), "scheme") == "none");
+    const auto hurried = with({implicit, fine, one});
+    REQUIRE(severity(hurried, "one_newton_iteration") == "warning");
+    CHECK(find(hurried, "one_newton_iteration")->fix == "allow more");
+    CHECK(severity(with({implicit, fine}), "one_newton_iteration") == "none");
 }
 
 TEST_CASE("cloth that starts inside an obstacle is reported, by how far it is moved or that it is refused") {
@@ -343,10 +349,7 @@ TEST_CASE("meshes that look swapped are reported once") {
         "[fabric.f]\nsprings.structural = 100.0\n[[cloth]]\nname = \"a\"\nfabric = \"f\"\nmesh = \"ball.obj\"\n"
         "[[obstacle]]\nname = \"b\"\nmesh = \"sheet.obj\"\n";
     const auto found = examine_scene_file(folder.write("scene.toml", text), {});
-    const auto reported = [](const Finding& finding) {
-        return finding.what.find("were their meshes swapped?") != std::string::npos;
-    };
-    CHECK(std::count_if(found.begin(), found.end(), reported) == 1);
+    CHECK(std::ranges::count(found, "swapped", &Finding::kind) == 1);
 }
 
 }  // namespace percale::scenes::test::doctor_scene_test

@@ -27,6 +27,12 @@ DrapeOptions write_files(const TestFolder& folder, Own own) {
     return options;
 }
 
+/// The line of the first finding of a kind; "" where there is none.
+std::string find(const DrapeScene& made, const std::string& kind) {
+    const auto found = std::ranges::find(made.findings, kind, &Finding::kind);
+    return found == made.findings.end() ? "" : finding_line(*found);
+}
+
 double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     REQUIRE(a.size() == b.size());
     double largest = 0.0;
@@ -42,7 +48,7 @@ TEST_CASE("meshes in centimetres with z up make the scene that they make in metr
     options.move = {0.0, 0.1, 0.02};
     options.rotate = {0.0, 30.0, 0.0};
     const DrapeScene plain = drape_scene(options);
-    CHECK(plain.notes.empty());
+    CHECK(plain.findings.empty());
     CHECK_FALSE(plain.z_up);
     const BuiltScene built = build_scene(plain.scene);
 
@@ -51,12 +57,17 @@ TEST_CASE("meshes in centimetres with z up make the scene that they make in metr
     options.rotate = {0.0, 0.0, 30.0};
     const DrapeScene turned = drape_scene(options);
     CHECK(turned.z_up);
-    REQUIRE(turned.notes.size() == 3);
-    CHECK(turned.notes[0].find("stands along z") != std::string::npos);
-    CHECK(turned.notes[1].find("170 units large, so its unit is taken as cm, which makes it 1.7 m (--body-unit m") !=
+    REQUIRE(turned.findings.size() == 3);
+    CHECK(turned.findings[0].kind == "guessed_up");
+    CHECK(turned.findings[0].what.find("stands along z") != std::string::npos);
+    CHECK(turned.findings[1].kind == "guessed_unit");
+    CHECK(turned.findings[1].place == options.body());
+    CHECK(turned.findings[1].what.find("170 units large, so its unit is taken as cm, which makes it 1.7 m (--body-unit m") !=
           std::string::npos);
-    CHECK(turned.notes[2].find("40 units large and the body 1.7 m, so its unit is taken as cm, which makes it 0.4 m") !=
-          std::string::npos);
+    CHECK(turned.findings[2].kind == "guessed_unit");
+    CHECK(turned.findings[2].place == options.files[0]);
+    CHECK(turned.findings[2].what.find("40 units large and the body 1.7 m") != std::string::npos);
+    for (const Finding& finding : turned.findings) CHECK(finding.severity == Severity::note);
     const BuiltScene again = build_scene(drape_scene(options).scene);
     CHECK(farthest(built.cloth_meshes[0].vertices, again.cloth_meshes[0].vertices) < 1e-6);
     std::vector<Vec3> box = again.obstacle_meshes[0].vertices;
@@ -72,7 +83,7 @@ TEST_CASE("what is said is not guessed, and garments grow by the scale") {
     options.garment_unit = options.body_unit = "m";
     const DrapeScene made = drape_scene(options);
     CHECK_FALSE(made.z_up);
-    for (const std::string& note : made.notes) CHECK(note.find("taken as") == std::string::npos);
+    for (const Finding& finding : made.findings) CHECK_FALSE(finding.kind.starts_with("guessed_"));
     CHECK(made.scene.cloths[0].pose.scale == 1.5);
     CHECK(made.scene.cloths[0].pose.rotation.w == 1.0);
 }
@@ -80,14 +91,9 @@ TEST_CASE("what is said is not guessed, and garments grow by the scale") {
 TEST_CASE("a garment that is closed and a body that is not were likely swapped") {
     const TestFolder folder;
     DrapeOptions options = write_files(folder, [](const Vec3& x) { return x; });
-    const auto reported = [&] {
-        const std::vector<std::string> notes = drape_scene(options).notes;
-        return std::ranges::any_of(notes,
-                                   [](const std::string& note) { return note.find("were their meshes swapped?") != note.npos; });
-    };
-    CHECK_FALSE(reported());
+    CHECK(find(drape_scene(options), "swapped").empty());
     std::swap(options.files[0], options.files[1]);
-    CHECK(reported());
+    CHECK(find(drape_scene(options), "swapped").starts_with("warning: cloth 'box': it is a closed surface and obstacle "));
 }
 
 TEST_CASE("a garment of pieces that nothing joins is known, and said how to mend") {
@@ -98,13 +104,11 @@ TEST_CASE("a garment of pieces that nothing joins is known, and said how to mend
     write_obj(options.files[0], open.vertices, open.triangles);
     const DrapeScene made = drape_scene(options);
     CHECK(made.comes_apart);
-    CHECK(std::ranges::any_of(made.notes, [](const std::string& note) {
-        return note.find("it consists of 2 pieces that nothing joins; --garment-part") != note.npos;
-    }));
-    CHECK(std::ranges::any_of(made.notes, [](const std::string& note) {
-        return note.find("14 vertices of a rim") != note.npos && note.find("; weld = ") != note.npos &&
-               note.find("--weld of percale drape)") != note.npos;
-    }));
+    CHECK(find(made, "parts") ==
+          "cloth 'sheet': it consists of 2 pieces that nothing joins; --garment-part takes one object or group of a file alone");
+    const std::string rims = find(made, "near_rims");
+    for (const char* part : {"warning: cloth 'sheet': 14 vertices of a rim", "; weld = ", "--weld of percale drape)"})
+        CHECK(rims.find(part) != std::string::npos);
 }
 
 TEST_CASE("a mesh with stitches is sewn as a pattern is, without weight until it is, one without is not") {
@@ -114,8 +118,8 @@ TEST_CASE("a mesh with stitches is sewn as a pattern is, without weight until it
     CHECK(drape_scene(options).scene.step.gravity != Vec3::Zero());
     std::ofstream(options.files[0], std::ios::app) << "stitch 0 4\nstitch 20 23 24 0.5\n";
     const DrapeScene made = drape_scene(options);
-    REQUIRE(made.notes.size() == 1);
-    CHECK(made.notes[0].find("has 2 stitches, by which it is sewn") != std::string::npos);
+    REQUIRE(made.findings.size() == 1);
+    CHECK(find(made, "stitches") == options.files[0] + " has 2 stitches, by which it is sewn");
     CHECK(made.scene.step.gravity == Vec3::Zero());
     const BuiltScene built = build_scene(made.scene);
     REQUIRE(built.seams.size() == 1);
@@ -143,8 +147,10 @@ TEST_CASE("what doctor warns of is noted, and options that are wrong are refused
     DrapeOptions options = write_files(folder, [](const Vec3& x) { return x; });
     options.fabric.thickness = 0.5;
     const DrapeScene made = drape_scene(options);
-    REQUIRE_FALSE(made.notes.empty());
-    CHECK(made.notes[0].find("warning: cloth 'sheet': ") == 0);
+    REQUIRE_FALSE(made.findings.empty());
+    CHECK(made.findings[0].kind == "thick_for_edges");
+    CHECK(finding_line(made.findings[0]).starts_with("warning: cloth 'sheet': thickness 0.5 m is "));
+    CHECK(made.findings[0].fix.empty());  // it is about the fabric, and the program has an option for it
 
     const auto refusal = [&](auto change) {
         DrapeOptions wrong = options;

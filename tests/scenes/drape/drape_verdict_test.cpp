@@ -1,5 +1,6 @@
 #include "scenes/drape/drape_verdict.h"
 
+#include <algorithm>
 #include <fstream>
 
 #include "scenes/meshes/obj_file.h"
@@ -25,14 +26,10 @@ DrapeOptions ring_around_post(const TestFolder& folder, double half_width) {
     return options;
 }
 
-bool reports_sliding(const DrapeVerdict& verdict) {
-    return std::ranges::any_of(verdict.lines,
-                               [](const std::string& line) { return line.find("slid down by ") != std::string::npos; });
-}
-
-bool reports_tightness(const DrapeVerdict& verdict) {
-    return std::ranges::any_of(verdict.lines,
-                               [](const std::string& line) { return line.find("may be too small") != std::string::npos; });
+/// The line of the first finding of a kind; "" where there is none.
+std::string find(const DrapeVerdict& verdict, const std::string& kind) {
+    const auto found = std::ranges::find(verdict.findings, kind, &Finding::kind);
+    return found == verdict.findings.end() ? "" : finding_line(*found);
 }
 
 }  // namespace
@@ -51,11 +48,13 @@ TEST_CASE("a garment that is stretched by a quarter and more is said to be tight
         built.simulation.set_positions(built.cloths[0], x);
         return verdict_of(built, options, drape, {});
     };
-    CHECK_FALSE(reports_tightness(verdict(0.2)));
-    CHECK(reports_tightness(verdict(0.3)));
+    CHECK(find(verdict(0.2), "tight").empty());
+    const std::string tight = find(verdict(0.3), "tight");
+    CHECK(tight.starts_with("warning: 'ring' is stretched by "));
+    CHECK(tight.ends_with(": it may be too small for the body (--scale makes it larger)"));
     const DrapeVerdict torn = verdict(1.5);
-    CHECK_FALSE(reports_tightness(torn));
-    CHECK(torn.lines[1].find("torn") != std::string::npos);
+    CHECK(find(torn, "tight").empty());
+    CHECK(torn.findings.at(1).kind == "torn");
 }
 
 TEST_CASE("a garment that slides down is reported, one that holds is not") {
@@ -65,8 +64,9 @@ TEST_CASE("a garment that slides down is reported, one that holds is not") {
         BuiltScene built = build_scene(drape_scene(options).scene);
         const Drape drape = settle(built, options, [](double) { return false; });
         const DrapeVerdict verdict = verdict_of(built, options, drape, write_draped(built, options, false));
-        CAPTURE(half_width, verdict.lines, verdict.wrong);
-        CHECK(reports_sliding(verdict) == (half_width > 10.0));
+        CAPTURE(half_width, finding_texts(verdict.findings), verdict.wrong);
+        CHECK(find(verdict, "slid").empty() == (half_width < 10.0));
+        CHECK(find(verdict, "sewn").find(" stitches, largest gap ") != std::string::npos);
         CHECK(widest_gap(built).stitches > 0);
     }
 }
@@ -81,8 +81,8 @@ TEST_CASE(
     BuiltScene built = build_scene(drape_scene(options).scene);
     const Drape drape = settle(built, options, [](double) { return false; });
     const DrapeVerdict verdict = verdict_of(built, options, drape, write_draped(built, options, true));
-    CAPTURE(verdict.lines);
-    CHECK(verdict.lines[0].find(" 0 intersecting pairs with the body, ") != std::string::npos);
+    CAPTURE(finding_texts(verdict.findings));
+    CHECK(find(verdict, "draped").find(" 0 intersecting pairs with the body, ") != std::string::npos);
     CHECK(verdict.wrong.find("not at rest when the time was up") != std::string::npos);
     CHECK(verdict.wrong.find("--seconds gives it longer") != std::string::npos);
     std::ifstream in(folder.path("out.obj"));

@@ -3,6 +3,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "common/finding_json.h"
 #include "format/scene_file.h"
 #include "meshes/obj_file.h"
 #include "percale/error.h"
@@ -59,6 +60,7 @@ TEST_CASE("a report holds every entry that users may rely on") {
                             "pinched",
                             "scheme",
                             "warnings",
+                            "findings",
                             "skipped",
                             "contacts_most",
                             "contact_stiffness",
@@ -227,11 +229,13 @@ TEST_CASE("a run warns of torn cloth without an expectation; crossings and steps
     result.measures.intersections = 3;
     result.measures.largest_strain = 9.0;
     result.totals.unsolved_steps = 2;
-    const std::vector<std::string> said = end_warnings(scene, result);
+    const std::vector<Finding> said = end_warnings(scene, result);
     REQUIRE(said.size() == 1);
+    CHECK(said[0].kind == "torn");
+    CHECK(finding_text(said[0]) == "the largest strain is 900 %: cloth would have torn");
     const ordered_json report = report_of(scene, result);
-    const std::vector<std::string> reported = report.at("warnings");
-    CHECK(said.back() == reported.back());
+    CHECK(report.at("warnings") == ordered_json(finding_texts(said)));
+    CHECK(report.at("findings") == ordered_json(said));
     CHECK(report.at("status") == "crossed");
     CHECK(report.at("reason") == verdict_of_run(result).reason);
     BuiltScene hurried = built(sheet_on_box(), {{"step.newton_iterations", "2"}, {"step.newton_tolerance", "1e-12"}});
@@ -367,7 +371,9 @@ TEST_CASE("a run that finishes with a tight garment says so, and cloth that is p
         return end_warnings(scene, result);
     };
     REQUIRE(warnings(mesh, body).size() == 1);
-    CHECK(warnings(mesh, body)[0] ==
+    CHECK(warnings(mesh, body)[0].kind == "tight");
+    CHECK(warnings(mesh, body)[0].place.ends_with("t.toml:4:1"));
+    CHECK(finding_text(warnings(mesh, body)[0]) ==
           "'a' is stretched by 30 % at its tightest: it may be too small for the body (pose.scale makes it larger)");
     CHECK(warnings(mesh, body, false).empty());
     CHECK(warnings(mesh + "\npin = [0]", body).empty());

@@ -33,10 +33,14 @@ TEST_CASE("Former names of keys are read as the present ones, each is reported o
     CHECK(now.step.newton_error_ratio == 0.5);
     CHECK(now.warnings.empty());
     REQUIRE(before.warnings.size() == 4);
-    CHECK(before.warnings[0] == "the key longest is called max_duration now; the former name works in this release only");
-    CHECK(before.warnings[1].starts_with("the key seam.from is called start_time now"));
-    CHECK(before.warnings[2].starts_with("the key seam.over is called duration now"));
-    CHECK(before.warnings[3].starts_with("the key step.newton_share is called newton_error_ratio now"));
+    CHECK(finding_text(before.warnings[0]) ==
+          "the key longest is called max_duration now; the former name works in this release only");
+    CHECK(before.warnings[1].what == "the key seam.from is called start_time now");
+    CHECK(before.warnings[2].what == "the key seam.over is called duration now");
+    CHECK(before.warnings[3].what == "the key step.newton_share is called newton_error_ratio now");
+    for (const Finding& warning : before.warnings) CHECK(warning.kind == "former_key");
+    CHECK(before.warnings[0].place == "t:2:1");
+    CHECK(before.warnings[3].place == "--set step.newton_share");
 }
 
 TEST_CASE("An override by either name takes the place of a value by either name") {

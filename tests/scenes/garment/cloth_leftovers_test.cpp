@@ -60,7 +60,9 @@ TEST_CASE("a scene runs a littered garment and says what it left out, unless it 
     const BuiltScene scene = built(folder, "");
     CHECK(scene.cloth_meshes[0].vertices == make_grid(0.4, 0.4, 5, 5).vertices);
     REQUIRE_FALSE(scene.warnings.empty());
-    CHECK(scene.warnings[0] == "cloth 'c': 2 vertices of no triangle and 2 repeated triangles of its mesh are left out");
+    CHECK(scene.warnings[0].kind == "leftovers");
+    CHECK(finding_text(scene.warnings[0]) ==
+          "cloth 'c': 2 vertices of no triangle and 2 repeated triangles of its mesh are left out");
     CHECK_NOTHROW(built(folder, "pin = \"boundary\"\n"));
     for (const auto& [keys, use] : {std::pair<std::string, std::string>{"pin = [3]\n", "pin"},
                                     {"[[event]]\ntime = 0.0\npin = { cloth = \"c\", vertices = [3] }\n", "[[event]]"},

@@ -100,8 +100,9 @@ TEST_CASE("a rest shape in what is likely another unit is warned of, with the sc
     const test::TestFolder folder;
     const BuiltScene scene = built(folder, square, "rest = \"uv\"\nuv_scale = 20.0\n");
     REQUIRE(scene.warnings.size() == 1);
-    CHECK(says(scene.warnings[0], "100 times as long"));
-    CHECK(says(scene.warnings[0], "uv_scale = 0.2"));
+    CHECK(scene.warnings[0].kind == "rest_scale");
+    CHECK(says(scene.warnings[0].what, "100 times as long"));
+    CHECK(scene.warnings[0].fix == "with uv_scale = 0.2 they would be as long");
 }
 
 TEST_CASE("what a rest shape or a warp lacks is one error with its place") {

@@ -12,7 +12,7 @@ namespace percale::scenes::test::meeting_warnings_test {
 namespace {
 
 /// A scene of a small sheet 1 m above and `beside` a block, both from files, with more of the scene behind the sheet.
-std::vector<std::string> meeting(double beside, const std::string& more = "", const std::string& of_fabric = "") {
+std::vector<Finding> meeting(double beside, const std::string& more = "", const std::string& of_fabric = "") {
     const test::TestFolder folder;
     const TriangleMesh sheet = make_grid(0.2, 0.2, 3, 3), block = make_box(Vec3(0.2, 0.2, 0.2));
     write_obj(folder.path("sheet.obj"), sheet.vertices, sheet.triangles);
@@ -31,13 +31,17 @@ TEST_CASE("cloth that can meet no obstacle is warned of, with how far it is away
     CHECK(meeting(0.35).empty());  // it may turn
     const auto missing = meeting(1.2);
     REQUIRE(missing.size() == 1);
-    CHECK(missing[0] ==
+    CHECK(missing[0].kind == "out_of_reach");
+    CHECK(missing[0].place.ends_with("t.toml"));
+    CHECK(finding_text(missing[0]) ==
           "no cloth can meet an obstacle from where it starts: cloth 'a' stays 1 m beside obstacle 'block'; move it there by "
           "pose.translation, or say the unit of its mesh");
     // Whatever else moves it may bring it there.
     CHECK(meeting(1.2, "[[event]]\ntime = 0.1\nwind = [-5, 0, 0]\n").empty());
     CHECK(meeting(1.2, "[[obstacle]]\nname = \"floor\"\nshape = { plane = {} }\npose.translation = [0, -1, 0]\n").empty());
-    CHECK(meeting(0.0, "pin = [0]\n").size() == 1);  // it hangs 1 m above
+    const auto hanging = meeting(0.0, "pin = [0]\n");
+    REQUIRE(hanging.size() == 1);  // 1 m above
+    CHECK(hanging[0].kind == "out_of_reach");
 }
 
 TEST_CASE("folded cloth can meet what it reaches when it unfolds, and cloth that meets other cloth may be led there") {
@@ -78,8 +82,11 @@ TEST_CASE("a mesh of a cloth that is closed and one of an obstacle that is not a
         return build_scene(load_scene(folder.write("t.toml", text))).warnings;
     };
     CHECK(warnings("sheet", "block").empty());
-    CHECK(warnings("block", "sheet") ==
-          std::vector<std::string>{"cloth 'a': it is a closed surface and obstacle 'b' is not: were their meshes swapped?"});
+    const auto swapped = warnings("block", "sheet");
+    REQUIRE(swapped.size() == 1);
+    CHECK(swapped[0].kind == "swapped");
+    CHECK(swapped[0].place.ends_with("t.toml:3:1"));
+    CHECK(finding_text(swapped[0]) == "cloth 'a': it is a closed surface and obstacle 'b' is not: were their meshes swapped?");
     CHECK(warnings("block", "block").empty());
     CHECK(warnings("block", "sheet", "gas_volume = 0.008\n").empty());
 }

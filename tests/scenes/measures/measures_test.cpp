@@ -256,9 +256,12 @@ TEST_CASE("steps in which obstacles give way are one pinch as long as they pause
     CHECK(pinches[2].from == Approx(2.9));
     Scene scene;
     for (const char* name : {"arm", "trunk", "leg"}) scene.obstacles.emplace_back().name = name;
-    CHECK(pinch_text(pinches[0], scene) ==
+    scene.obstacles[0].place = {.file = "a.toml", .line = 3, .column = 1};
+    CHECK(pinch_warning(pinches[0], scene).kind == "pinched");
+    CHECK(pinch_warning(pinches[0], scene).place == "a.toml:3:1");
+    CHECK(finding_text(pinch_warning(pinches[0], scene)) ==
           "'arm' and 'leg' pinched cloth; the compliant obstacle (on_pinch) gave way by up to 0.01 m, from 0.9 s to 1.3 s");
-    CHECK(pinch_text(pinches[1], scene).find("'trunk' pinched cloth") == 0);
+    CHECK(pinch_warning(pinches[1], scene).what.find("'trunk' pinched cloth") == 0);
 }
 
 }  // namespace percale::scenes::test::measures_test

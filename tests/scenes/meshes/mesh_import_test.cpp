@@ -182,13 +182,15 @@ TEST_CASE("an animation that is left out is reported") {
 {"bufferView":3,"componentType":5126,"count":2,"type":"VEC3"}])";
     const std::string animation = R"(,
 "animations":[{"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}],"samplers":[{"input":2,"output":3}]}])";
-    std::vector<std::string> warnings;
+    std::vector<Finding> warnings;
     CHECK(import_mesh(folder.write("still.gltf", still + "}"), 1.0, &warnings).triangles.size() == 1);
     CHECK(warnings.empty());
     const std::string file = folder.write("moves.gltf", still + animation + "}");
     CHECK(import_mesh(file, 1.0, &warnings).triangles.size() == 1);
     REQUIRE(warnings.size() == 1);
-    CHECK(warnings[0].find(file + ": it is animated") == 0);
+    CHECK(warnings[0].kind == "left_out");
+    CHECK(warnings[0].place == file);
+    CHECK(finding_text(warnings[0]).find(file + ": it is animated, which is left out: ") == 0);
     CHECK(import_mesh(file).triangles.size() == 1);  // nobody asks
 }
 

@@ -68,17 +68,20 @@ TEST_CASE("a mesh file is welded in m, which is reported where triangles go, and
     const std::string file = folder.write("two.obj",
                                           "v 0 0 0\nv 100 0 0\nv 0 0 100\nv 100.01 0 0\nv 100 0 100\nv 0 0 100.01\nv 0 0 0.01\n"
                                           "f 1 2 3\nf 4 5 6\nf 1 2 7\n");
-    std::vector<std::string> warnings;
+    std::vector<Finding> warnings;
     const TriangleMesh mesh = import_mesh(file, 0.01, &warnings, "", 2e-4);
     CHECK(mesh.vertices.size() == 4);
     CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}});
     REQUIRE(warnings.size() == 1);
-    CHECK(warnings[0] == file + ": weld = 0.0002 m leaves out 1 triangle of which two corners become one");
+    CHECK(warnings[0].kind == "weld_drops_triangles");
+    CHECK(warnings[0].place == file);
+    CHECK(finding_text(warnings[0]) == file + ": weld = 0.0002 m leaves out 1 triangle of which two corners become one");
     CHECK(message_of([&] { import_mesh(file, 0.01, nullptr, "", 2.0); }) ==
           file + ": weld = 2 m leaves no triangle: all are smaller");
     CHECK(import_mesh(file, 0.01).vertices.size() == 7);
     import_mesh(file, 0.01, &warnings, "", 1e-6);
-    CHECK(warnings.back() == file + ": weld = 1e-06 m joins nothing: no two vertices are so near");
+    CHECK(warnings.back().kind == "weld_joins_nothing");
+    CHECK(finding_text(warnings.back()) == file + ": weld = 1e-06 m joins nothing: no two vertices are so near");
 }
 
 }  // namespace percale::scenes::test::near_vertices_test

@@ -92,7 +92,8 @@ TEST_CASE("names that no shape has, and frames that cannot be drawn, are refused
 TEST_CASE("a mesh that moves by itself is drawn as it stands, and that is said") {
     const FrameSource source = FrameSource::of_meshes({PERCALE_DATA_DIR "/meshes/mannequin.glb"}, {});
     REQUIRE(source.warnings().size() == 1);
-    CHECK(source.warnings()[0].find("it is animated, which is left out") != std::string::npos);
+    CHECK(source.warnings()[0].kind == "left_out");
+    CHECK(source.warnings()[0].place.ends_with("mannequin.glb"));
 }
 
 TEST_CASE("meshes are one frame, of which closed ones are bodies unless there are several and all are") {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "percale/fabric_presets.h"
+#include "scenes/common/scene_file_error.h"
 #include "scenes/common/text.h"
 #include "scenes/format/scene_file.h"
 #include "scenes/run/scene_plan.h"
@@ -323,13 +324,15 @@ TEST_CASE("a preset on a mesh is isotropic and says so, on a grid, or with modul
     const test::TestFolder folder;
     const BuiltScene on_mesh = build_scene(load_scene(mesh_scene(folder, square, "", "preset = \"denim_11oz\"")));
     REQUIRE(on_mesh.warnings.size() == 1);
-    const std::string& warning = on_mesh.warnings.front();
+    const Finding& warning = on_mesh.warnings.front();
+    CHECK(warning.kind == "isotropic_fabric");
+    CHECK(warning.place == place_text(on_mesh.scene.cloths[0].place));
     CHECK(
-        warning.starts_with("cloth 'flag': its mesh does not say where warp is (key warp, or rest = \"uv\"); instead of "
-                            "stretch_stiffness = ["));
+        warning.what.starts_with("cloth 'flag': its mesh does not say where warp is (key warp, or rest = \"uv\"); instead of "
+                                 "stretch_stiffness = ["));
     const Fabric expected = isotropic(fabric_preset("denim_11oz"));
-    CHECK(warning.find(number_text(expected.stretch_stiffness->front()) + " N/m in every direction") != std::string::npos);
-    CHECK(plan_of(on_mesh).warnings.front() == warning);
+    CHECK(warning.what.find(number_text(expected.stretch_stiffness->front()) + " N/m in every direction") != std::string::npos);
+    CHECK(plan_findings(on_mesh, plan_of(on_mesh)).front().what == warning.what);
     Simulation same({});
     same.add_cloth(on_mesh.cloth_meshes.front(), expected);
     BuiltScene other = build_scene(load_scene(folder.path("scene.toml")));
@@ -402,10 +405,11 @@ TEST_CASE("a seam that should have closed and is open is reported with its width
     };
     CHECK(said("1e4", 20).empty());
     CHECK(said("0.001", 3).empty());
-    const std::vector<std::string> open = said("0.001", 20);
+    const std::vector<Finding> open = said("0.001", 20);
     REQUIRE(open.size() == 1);
-    CHECK(open[0].find("not sewn: seam 'side' of 'a' is open by ") == 0);
-    CHECK(open[0].find(" m at (") != std::string::npos);
+    CHECK(open[0].kind == "unsewn");
+    CHECK(open[0].what.find("not sewn: seam 'side' of 'a' is open by ") == 0);
+    CHECK(open[0].what.find(" m at (") != std::string::npos);
 }
 
 TEST_CASE("panels that wait beside others being sewn add no iterations", "[slow]") {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "common/scene_file_error.h"
 #include "format/scene_file.h"
 #include "run/run_scene.h"
 #include "tests/scenes/small_scenes.h"
@@ -57,17 +58,20 @@ TEST_CASE("a plan that is kept is that of the start, and the run's") {
         CHECK(plan.scheme == before.scheme);
         CHECK(plan.scheme_reason == before.scheme_reason);
         CHECK(plan.stable_step == before.stable_step);
-        CHECK(plan.warnings == before.warnings);
+        CHECK(plan.warning_texts() == before.warning_texts());
     }
 }
 
 TEST_CASE("events after the end are warned of") {
     const auto warnings = [](const std::string& end) {
-        return plan_of(built(falling_sheet() + pin_event, {{"duration", end}})).warnings;
+        const BuiltScene scene = built(falling_sheet() + pin_event, {{"duration", end}});
+        return plan_findings(scene, plan_of(scene));
     };
     CHECK(warnings("0.05").empty());
     REQUIRE(warnings("0.04").size() == 1);
-    CHECK_THAT(warnings("0.04")[0], Catch::Contains("1 of 1 event would come after the end, 0.04 s, the first at 0.05 s"));
+    CHECK(warnings("0.04")[0].kind == "late_events");
+    CHECK(warnings("0.04")[0].place == "test.toml:18:1");
+    CHECK(finding_text(warnings("0.04")[0]) == "1 of 1 event would come after the end, 0.04 s, the first at 0.05 s");
 }
 
 TEST_CASE("the plan says what the start needed") {
@@ -77,6 +81,11 @@ TEST_CASE("the plan says what the start needed") {
     const std::string text = plan_text(built(inside));
     CAPTURE(text);
     CHECK(text.find("start      36 vertices of sheet moved out of box before the start") != std::string::npos);
+    const std::vector<Finding> moves = start_findings(built(inside));
+    REQUIRE(moves.size() == 1);
+    CHECK(moves[0].kind == "start_moved");
+    CHECK(moves[0].severity == Severity::warning);  // 15 mm, three thicknesses
+    CHECK(start_findings(built(sheet_on_box())).empty());
 }
 
 TEST_CASE("a run lists what its plan lists") {
@@ -121,9 +130,14 @@ TEST_CASE("a plan says which scheme was chosen and why, and warns of steps that 
     CHECK(plan_of(open).scheme != Scheme::automatic);
     CHECK(plan_of(open).warnings.empty());
     const BuiltScene stiff = built(falling_sheet(), {{"fabric.sheet.springs.structural", "1e5"}});
-    REQUIRE(plan_of(stiff).warnings.size() == 1);
-    CHECK(plan_text(stiff).find("warning    " + plan_of(stiff).warnings[0]) != std::string::npos);
-    CHECK(nlohmann::json::parse(plan_json(stiff)).at("warnings").size() == 1);
+    const std::vector<Finding> found = plan_findings(stiff, plan_of(stiff));
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].kind == "unstable_step");
+    CHECK(found[0].place == place_text(stiff.scene.scheme_place));
+    CHECK(plan_text(stiff).find("warning    " + finding_text(found[0]) + "\n") != std::string::npos);
+    const auto json = nlohmann::json::parse(plan_json(stiff));
+    CHECK(json.at("warnings") == nlohmann::json(finding_texts(found)));
+    CHECK(json.at("findings").at(0).at("kind") == "unstable_step");
     const BuiltScene adaptive = built(sheet_on_box(), {{"step.time_step", "auto"}, {"step.tolerance", "0.002"}});
     CHECK(plan_text(adaptive).find("an error of 0.002 m a second allows, tr_bdf2") != std::string::npos);
     CHECK(nlohmann::json::parse(plan_json(adaptive)).at("time_step_s") == "auto");

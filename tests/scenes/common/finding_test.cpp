@@ -1,5 +1,6 @@
-#include "scenes/doctor/finding.h"
+#include "scenes/common/finding.h"
 
+#include "scenes/common/finding_json.h"
 #include "scenes/common/scene_file_error.h"
 #include "tests/support/catch.h"
 
@@ -37,6 +38,21 @@ TEST_CASE("severities and uses of a mesh have words of their own") {
     CHECK(std::string(severity_word(Severity::error)) == "error");
     CHECK(std::string(role_word(MeshRole::cloth)) == "cloth");
     CHECK(std::string(role_word(MeshRole::obstacle)) == "obstacle");
+}
+
+TEST_CASE("a finding is one line with what mends it, a warning if nothing else is said; a note has no severity there") {
+    const Finding fixed{.kind = "loose", .place = "a.toml:3:1", .what = "it is loose", .fix = "pin it"};
+    CHECK(finding_text(fixed) == "it is loose; pin it");
+    CHECK(finding_line(fixed) == "warning: it is loose; pin it");
+    CHECK(finding_line({.severity = Severity::note, .kind = "loose", .what = "it is loose"}) == "it is loose");
+    CHECK(finding_texts(std::vector{fixed, Finding{.what = "torn"}}) == std::vector<std::string>{"it is loose; pin it", "torn"});
+}
+
+TEST_CASE("findings in JSON have severity, kind, place, what and fix, alone and in a list") {
+    const Finding finding{.kind = "loose", .place = "a.toml:3:1", .what = "it is loose", .fix = "pin it"};
+    const nlohmann::ordered_json json = finding, list = std::vector<Finding>(2, finding);
+    CHECK(json.dump() == R"({"severity":"warning","kind":"loose","place":"a.toml:3:1","what":"it is loose","fix":"pin it"})");
+    CHECK(list == nlohmann::ordered_json::array({json, json}));
 }
 
 }  // namespace percale::scenes::test::finding_test
