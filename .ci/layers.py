@@ -37,7 +37,7 @@ MAY_INCLUDE = {
     'outside': PUBLIC | {'outside'},
 }
 # The rooms of scenes/, each of which may include itself and the rooms before it.
-SCENES_ROOMS = ['common', 'report', 'shapes', 'models', 'meshes', 'frames', 'fields', 'pattern', 'format', 'garment', 'bodies', 'measures', 'run', 'export', 'picture', 'page', 'doctor', 'drape', 'compare', 'stress', 'sweep', 'python', 'program']
+SCENES_ROOMS = ['common', 'report', 'shapes', 'models', 'meshes', 'frames', 'fields', 'pattern', 'format', 'garment', 'bodies', 'measures', 'run', 'export', 'picture', 'page', 'doctor', 'drape', 'study', 'compare', 'stress', 'python', 'program']
 # Which folder of collision may include which other ones; tolerances.h all of them. What stands on top (detector.*) sees all, a
 # backend sees the top and what a tree is.
 COLLISION_FOLDERS = {

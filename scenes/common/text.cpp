@@ -79,4 +79,20 @@ std::string joined(std::span<const std::string> words) {
     return text;
 }
 
+double round_step(double min) {
+    constexpr double rounding = 1e-9;  // what is a round step up to rounding is one
+    const double power = std::pow(10.0, std::floor(std::log10(min)));
+    for (const double digit : {1.0, 2.0, 5.0})
+        if (digit * power >= min * (1.0 - rounding)) return digit * power;
+    return 10.0 * power;
+}
+
+std::string multiple_text(double value, double step) {
+    const int digits = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 12);
+    char text[48];
+    if (std::abs(value) >= 1e6 || step < 1e-6) return short_number(value);
+    std::snprintf(text, sizeof text, "%.*f", digits, value == 0.0 ? 0.0 : value);
+    return text;
+}
+
 }  // namespace percale::scenes

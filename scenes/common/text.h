@@ -32,4 +32,9 @@ std::string hexadecimal(std::uint64_t value);
 /// "a, b, c".
 std::string joined(std::span<const std::string> words);
 
+/// 1, 2 or 5 times a power of ten, not below `min`: a step between the numbers of a scale.
+double round_step(double min);
+/// A multiple of such a step without the rounding of the product: 0.3, not 0.30000000000000004.
+std::string multiple_text(double value, double step);
+
 }  // namespace percale::scenes

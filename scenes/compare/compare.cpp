@@ -5,7 +5,6 @@
 
 #include "common/scene_file_error.h"
 #include "percale/error.h"
-#include "percale/options.h"
 #include "tolerances.h"
 
 namespace percale::scenes {
@@ -27,13 +26,7 @@ void add_default_steps(const SceneSource& source, const std::string& scheme, con
 
 /// Whether a scheme takes the scene at all.
 bool is_refused(const SceneSource& source, const std::string& scheme) {
-    Scene scene = source(std::vector<Override>{{"step.scheme", scheme}});
-    try {
-        build_scene(scene);
-    } catch (const SceneError&) {
-        return true;
-    }
-    return false;
+    return !use_steps(source(std::vector<Override>{{"step.scheme", scheme}}), [](BuiltScene&) {}).empty();
 }
 
 std::vector<std::string> wanted_schemes(const SceneSource& source, const CompareSettings& settings) {
@@ -83,14 +76,6 @@ double Comparison::rank_of(const Distances& distances) const {
     return std::max({distances.mass_centre, distances.lowest, distances.stretch * extent});
 }
 
-std::vector<std::string> scheme_words() {
-    std::vector<std::string> words;
-    for (const Option<StepSettings>& option : step_options())
-        if (option.key == "scheme") words.assign(option.choices.begin(), option.choices.end());
-    std::erase(words, "auto");
-    return words;
-}
-
 void demand_duration(const Scene& scene) {
     if (!scene.until_rest) return;
     fail_at(
@@ -107,17 +92,20 @@ Comparison compare_scene(const SceneSource& source, const CompareSettings& setti
                           .runs = {}};
     comparison.extent = extent_of(comparison.reference.state);
     if (hooks.reference_made) hooks.reference_made(comparison.reference);
-    for (const Variant& variant : all_variants(source, settings, hooks)) {
-        VariantRun run = run_variant(source, variant, hooks.stop_asked);
-        comparison.runs.push_back(judged(variant, std::move(run), comparison));
-    }
-    for (int round = 1; round < settings.repeats; ++round) {
-        for (ComparedRun& compared : comparison.runs) {
-            if (compared.run.end != VariantEnd::finished) continue;
-            const VariantRun again = run_variant(source, compared.variant, hooks.stop_asked);
-            compared.run.totals.cpu_s = std::min(compared.run.totals.cpu_s, again.totals.cpu_s);
-        }
-    }
+    const std::vector<Variant> variants = all_variants(source, settings, hooks);
+    comparison.runs.resize(variants.size());
+    const auto run = [&](std::size_t k) {
+        ComparedRun& compared = comparison.runs[k % variants.size()];
+        if (k >= variants.size() && compared.run.end != VariantEnd::finished) return;
+        VariantRun made = run_variant(source, variants[k % variants.size()], hooks.stop_asked);
+        if (k < variants.size())
+            compared = judged(variants[k], std::move(made), comparison);
+        else
+            compared.run.totals.cpu_s = std::min(compared.run.totals.cpu_s, made.totals.cpu_s);
+    };
+    // One at a time: their CPU times are compared.
+    const std::size_t count = variants.size() * static_cast<std::size_t>(settings.repeats);
+    if (!run_variants(count, {.stop_asked = hooks.stop_asked}, run)) throw StudyStopped();
     return comparison;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -35,8 +34,6 @@ struct Comparison {
     /// The error that runs are ranked by, m: rms over vertices; in chaotic scenes the largest of centre of mass, lowest vertex
     /// and stretch over the extent of the cloth.
     double rank_of(const Distances& distances) const;
-    /// Whether this error is above the uncertainty of the reference.
-    bool resolved(const ComparedRun& run) const { return rank_of(run.error) > rank_of(reference.uncertainty); }
 };
 
 struct CompareHooks {
@@ -44,15 +41,12 @@ struct CompareHooks {
     std::function<void(const Reference&)> reference_made;  // may be empty
 };
 
-/// All words of step.scheme that name one scheme, in the order of the options.
-std::vector<std::string> scheme_words();
-
 /// Throws SceneError where no time is given at which all runs end: with duration = "rest".
 void demand_duration(const Scene& scene);
 
 /// Runs the reference, then every scheme at every step and tolerance, repeats in rounds. A run that failed, blew up or was
 /// refused is a row that says so; one that ends farther from the reference than the cloth is large blew up, too. Throws
-/// SceneError where the scene is wrong, ComparisonStopped after a stop.
+/// SceneError where the scene is wrong, StudyStopped after a stop.
 Comparison compare_scene(const SceneSource& source, const CompareSettings& settings, const CompareHooks& hooks = {});
 
 }  // namespace percale::scenes

@@ -103,8 +103,6 @@ Reference Refinement::reference() const {
     return reference;
 }
 
-bool has_contact(const SceneSource& source) { return source({}).has_contact(); }
-
 }  // namespace
 
 std::optional<Survivor> largest_surviving_step(const SceneSource& source, const std::string& scheme,
@@ -124,7 +122,7 @@ Distances richardson(const Distances& change, double before) {
 }
 
 Reference make_reference(const SceneSource& source, double wanted, const std::function<bool()>& stop_asked) {
-    const bool contact = has_contact(source);
+    const bool contact = source({}).has_contact();
     std::string refused;  // why a scheme refused the scene, as tr_bdf2 refuses projection
     for (const Candidate& candidate : candidates) {
         if (contact && !candidate.contact) continue;

@@ -1,6 +1,7 @@
 #include "compare/compare_report.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -12,99 +13,43 @@ namespace percale::scenes {
 
 namespace {
 
-std::string formatted(const char* format, double value) {
-    char text[48];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
-}
-
-std::string short_text(double value) { return formatted("%.2g", value); }
-
 bool finished(const ComparedRun& run) { return run.run.end == VariantEnd::finished; }
 
 /// An error as the table shows it.
 std::string error_text(double error, double uncertainty) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2e", error);
     if (std::isnan(error)) return "-";
-    return error > uncertainty ? formatted("%.2e", error) : "< " + short_text(uncertainty);
+    return error > uncertainty ? text : "< " + short_number(uncertainty, 2);
 }
 
-/// One kind of error.
+/// What tables of regular and of chaotic scenes show, in the order of each_distance.
 struct ErrorColumn {
     const char* heading;
-    double Distances::*value;
-    bool chaotic, regular;  // shown in tables of such scenes
+    bool chaotic, regular;
 };
-constexpr ErrorColumn error_columns[] = {{"rms m", &Distances::rms, false, true},
-                                         {"largest m", &Distances::largest, false, true},
-                                         {"mass centre m", &Distances::mass_centre, true, false},
-                                         {"lowest m", &Distances::lowest, true, false},
-                                         {"stretch", &Distances::stretch, true, false},
-                                         {"energy J", &Distances::energy, true, true}};
-
-using Row = std::vector<std::string>;
-
-template <class Visit>
-void for_shown_errors(const Comparison& comparison, Visit visit) {
-    for (const ErrorColumn& column : error_columns)
-        if (comparison.reference.chaotic ? column.chaotic : column.regular) visit(column);
-}
-
-Row heading_row(const Comparison& comparison) {
-    Row row{"scheme", "step", "steps", "Newton", "linear", "CPU s"};
-    for_shown_errors(comparison, [&](const ErrorColumn& column) { row.emplace_back(column.heading); });
-    row.emplace_back("status");
-    return row;
-}
+constexpr std::array<ErrorColumn, each_distance.size()> error_columns = {{{"rms m", false, true},
+                                                                          {"largest m", false, true},
+                                                                          {"mass centre m", true, false},
+                                                                          {"lowest m", true, false},
+                                                                          {"stretch", true, false},
+                                                                          {"energy J", true, true}}};
 
 std::string status_text(const VariantRun& run) {
-    if (run.end == VariantEnd::blew_up) return end_word(run.end) + (" after " + short_text(run.totals.simulated_s)) + " s";
+    if (run.end == VariantEnd::blew_up) return end_word(run.end) + (" after " + short_number(run.totals.simulated_s, 2)) + " s";
     return end_word(run.end) + (run.reason.empty() ? "" : ": " + run.reason);
 }
 
-Row table_row(const Comparison& comparison, const ComparedRun& compared) {
-    const RunTotals& totals = compared.run.totals;
-    Row row{compared.variant.scheme,
-            length_text(compared.variant),
-            std::to_string(compared.run.steps),
-            std::to_string(totals.newton_iterations),
-            std::to_string(totals.linear_iterations),
-            formatted("%.3g", totals.cpu_s)};
-    for_shown_errors(comparison, [&](const ErrorColumn& column) {
-        row.push_back(error_text(compared.error.*column.value, comparison.reference.uncertainty.*column.value));
-    });
-    row.push_back(status_text(compared.run));
-    return row;
-}
-
-/// Columns as wide as their widest entry; the first two and the last to the left, figures to the right.
-std::string aligned(const std::vector<Row>& rows) {
-    std::vector<std::size_t> widths(rows.front().size(), 0);
-    for (const Row& row : rows)
-        for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
-    std::string text;
-    for (const Row& row : rows) {
-        for (std::size_t k = 0; k + 1 < row.size(); ++k) {
-            const std::string fill(widths[k] - row[k].size(), ' ');
-            text += (k < 2 ? row[k] + fill : fill + row[k]) + "  ";
-        }
-        text += row.back() + "\n";
-    }
-    return text;
-}
-
-std::string csv_line(const Variant& variant, const std::string& status, const Distances& error, const VariantRun* run) {
-    std::string line = variant.scheme + "," + (variant.time_step > 0.0 ? number_text(variant.time_step) : "") + "," +
-                       (variant.time_step > 0.0 ? "" : number_text(variant.tolerance)) + "," + status;
-    if (run) {
-        for (const long count : {static_cast<long>(run->steps), static_cast<long>(run->rejected), run->totals.newton_iterations,
-                                 run->totals.linear_iterations})
-            line += "," + std::to_string(count);
-        line += "," + csv_number(run->totals.cpu_s);
-    } else {
-        line += ",,,,,";
-    }
-    for (const ErrorColumn& column : error_columns) line += "," + csv_number(error.*column.value);
-    return line;
+/// A line of the table for programs; the reference has no counts.
+std::string comparison_line(const ComparedRun& compared, const std::string& status, const std::string& reason,
+                            bool counted = true) {
+    const auto& [variant, run, error] = compared;
+    const auto count = [&](long value) { return counted ? std::to_string(value) : ""; };
+    const bool fixed = variant.time_step > 0.0;
+    return csv_line(variant.scheme, fixed ? number_text(variant.time_step) : "", fixed ? "" : number_text(variant.tolerance),
+                    status, count(run.steps), count(run.rejected), count(run.totals.newton_iterations),
+                    count(run.totals.linear_iterations), counted ? csv_number(run.totals.cpu_s) : "", error.rms, error.largest,
+                    error.mass_centre, error.lowest, error.stretch, error.energy, reason);
 }
 
 std::string decade_text(int power) { return "1e" + std::to_string(power) + " m"; }
@@ -121,20 +66,34 @@ PlotSeries& series_of(Plot& plot, const std::string& name) {
 
 std::string reference_text(const Reference& reference) {
     const Distances& u = reference.uncertainty;
-    std::string text = "reference: " + variant_text(reference.variant) + ", known to " + short_text(u.rms) + " m rms, " +
-                       short_text(u.largest) + " m at the worst vertex, " + short_text(u.energy) + " J\n";
-    text += "a disturbance of " + short_text(disturbance_at_start) + " m grows " + short_text(reference.growth) + "-fold";
+    std::string text = "reference: " + variant_text(reference.variant) + ", known to " + short_number(u.rms, 2) + " m rms, " +
+                       short_number(u.largest, 2) + " m at the worst vertex, " + short_number(u.energy, 2) + " J\n";
+    text +=
+        "a disturbance of " + short_number(disturbance_at_start, 2) + " m grows " + short_number(reference.growth, 2) + "-fold";
     if (!reference.chaotic) return text + ": positions are compared\n";
-    return text + ", more than " + short_text(chaos_growth) +
+    return text + ", more than " + short_number(chaos_growth, 2) +
            "-fold: chaotic, so that centre of mass, lowest vertex, stretch and energy are compared, not positions\n"
            "(the centre of mass is known to " +
-           short_text(u.mass_centre) + " m)\n";
+           short_number(u.mass_centre, 2) + " m)\n";
 }
 
 std::string comparison_table(const Comparison& comparison) {
-    std::vector<Row> rows{heading_row(comparison)};
-    for (const ComparedRun& run : comparison.runs) rows.push_back(table_row(comparison, run));
-    return aligned(rows);
+    const Reference& reference = comparison.reference;
+    TableCells rows = {{"scheme", "step", "steps", "Newton", "linear", "CPU s"}};
+    for (const auto& [variant, run, error] : comparison.runs)
+        rows.push_back({variant.scheme, length_text(variant), std::to_string(run.steps),
+                        std::to_string(run.totals.newton_iterations), std::to_string(run.totals.linear_iterations),
+                        short_number(run.totals.cpu_s)});
+    for (std::size_t k = 0; k < each_distance.size(); ++k) {
+        if (!(reference.chaotic ? error_columns[k].chaotic : error_columns[k].regular)) continue;
+        const auto distance = each_distance[k];
+        rows[0].emplace_back(error_columns[k].heading);
+        for (std::size_t i = 0; i < comparison.runs.size(); ++i)
+            rows[i + 1].push_back(error_text(comparison.runs[i].error.*distance, reference.uncertainty.*distance));
+    }
+    rows[0].emplace_back("status");
+    for (std::size_t i = 0; i < comparison.runs.size(); ++i) rows[i + 1].push_back(status_text(comparison.runs[i].run));
+    return aligned_table(rows, 2, true);
 }
 
 std::string comparison_csv(const Comparison& comparison) {
@@ -142,12 +101,10 @@ std::string comparison_csv(const Comparison& comparison) {
         "scheme,time_step_s,tolerance_m_per_s,status,steps,rejected_steps,newton_iterations,linear_iterations,cpu_s,rms_error_m,"
         "largest_error_m,mass_centre_error_m,lowest_vertex_error_m,stretch_error,energy_error_J,reason\n";
     const Reference& reference = comparison.reference;
-    const std::string kind = reference.chaotic ? "chaotic: compare invariants, not positions" : "errors are the uncertainty";
-    text += csv_line(reference.variant, "reference", reference.uncertainty, nullptr) + "," + kind + "\n";
-    for (const ComparedRun& compared : comparison.runs) {
-        text += csv_line(compared.variant, end_word(compared.run.end), compared.error, &compared.run) + "," +
-                csv_text(compared.run.reason) + "\n";
-    }
+    text +=
+        comparison_line({reference.variant, {}, reference.uncertainty}, "reference",
+                        reference.chaotic ? "chaotic: compare invariants, not positions" : "errors are the uncertainty", false);
+    for (const ComparedRun& run : comparison.runs) text += comparison_line(run, end_word(run.run.end), run.run.reason);
     return text;
 }
 
@@ -168,7 +125,7 @@ std::vector<std::string> advice(const Comparison& comparison) {
         while (cheapest_within(comparison, std::pow(10.0, power - 1)) == best) --power;
         const std::string range = decade_text(first) + (power < first ? " to " + decade_text(power) : "");
         sentences.push_back("for an error of " + range + " use " + variant_text(best->variant) + " (" +
-                            short_text(best->run.totals.cpu_s) + " CPU s)");
+                            short_number(best->run.totals.cpu_s, 2) + " CPU s)");
         --power;
     }
     if (sentences.empty()) sentences.emplace_back("no run here has an error of certainly 1e-1 m or less");
@@ -187,8 +144,8 @@ Plot comparison_plot(const Comparison& comparison) {
     for (const ComparedRun& compared : comparison.runs) {
         if (!finished(compared)) continue;
         const double error = std::max(comparison.rank_of(compared.error), uncertainty);
-        const std::string label =
-            variant_text(compared.variant) + ": " + short_text(error) + " m, " + short_text(compared.run.totals.cpu_s) + " CPU s";
+        const std::string label = variant_text(compared.variant) + ": " + short_number(error, 2) + " m, " +
+                                  short_number(compared.run.totals.cpu_s, 2) + " CPU s";
         series_of(plot, series_name(compared.variant)).points.push_back({compared.run.totals.cpu_s, error, label});
     }
     return plot;

@@ -6,45 +6,14 @@
 #include <utility>
 
 #include "common/text.h"
-#include "frames/frame_formats.h"
 #include "garment/vertex_selection.h"
-#include "percale/error.h"
 
 namespace percale::scenes {
+
 namespace {
 
 /// Fraction by which a rate of steps may differ from a whole number and still be written as 1/number.
 constexpr double whole_rate_rounding = 1e-9;
-
-}  // namespace
-
-std::string length_text(const Variant& variant) {
-    if (variant.time_step <= 0.0) return "tolerance " + number_text(variant.tolerance) + " m/s";
-    const double rate = 1.0 / variant.time_step, whole = std::round(rate);
-    if (whole >= 10.0 && std::abs(rate - whole) <= whole_rate_rounding * whole)
-        return "1/" + std::to_string(static_cast<long>(whole)) + " s";
-    return number_text(variant.time_step) + " s";
-}
-
-std::string variant_text(const Variant& variant) {
-    return variant.scheme + (variant.time_step > 0.0 ? " at " : " with ") + length_text(variant);
-}
-
-const char* end_word(VariantEnd end) {
-    switch (end) {
-        case VariantEnd::finished:
-            return "finished";
-        case VariantEnd::blew_up:
-            return "blew up";
-        case VariantEnd::failed:
-            return "failed";
-        case VariantEnd::refused:
-            return "refused";
-    }
-    return "unknown";
-}
-
-namespace {
 
 std::vector<Override> overrides_of(const Variant& variant) {
     std::vector<Override> overrides{{"step.scheme", variant.scheme, "--schemes"}};
@@ -113,7 +82,7 @@ EndState end_of(const BuiltScene& built) {
 }
 
 VariantEnd end_of(RunStatus status, bool finite) {
-    if (status == RunStatus::stopped) throw ComparisonStopped();
+    if (status == RunStatus::stopped) throw StudyStopped();
     if (status == RunStatus::finished) return VariantEnd::finished;
     return finite ? VariantEnd::failed : VariantEnd::blew_up;
 }
@@ -139,28 +108,37 @@ VariantRun run_built(BuiltScene& built, const std::function<bool()>& stop_asked)
 
 }  // namespace
 
-void leave_only_steps(Scene& scene) {
-    scene.output.frames = {no_frames};
-    scene.output.fps = 1e-9;
-    scene.expectations.clear();
+std::string length_text(const Variant& variant) {
+    if (variant.time_step <= 0.0) return "tolerance " + number_text(variant.tolerance) + " m/s";
+    const double rate = 1.0 / variant.time_step, whole = std::round(rate);
+    if (whole >= 10.0 && std::abs(rate - whole) <= whole_rate_rounding * whole)
+        return "1/" + std::to_string(static_cast<long>(whole)) + " s";
+    return number_text(variant.time_step) + " s";
+}
+
+std::string variant_text(const Variant& variant) {
+    return variant.scheme + (variant.time_step > 0.0 ? " at " : " with ") + length_text(variant);
+}
+
+const char* end_word(VariantEnd end) {
+    return std::array{"finished", "blew up", "failed", "refused"}[static_cast<std::size_t>(end)];
 }
 
 VariantRun run_variant(const SceneSource& source, const Variant& variant, const std::function<bool()>& stop_asked,
                        double disturbance) {
     Scene scene = source(overrides_of(variant));
-    leave_only_steps(scene);
     scene.step.measure = StepMeasures::none;
     if (scene.step.threads == 0) scene.step.threads = 1;  // what is compared is CPU time
-    try {
-        BuiltScene built = build_scene(scene);
+    VariantRun run;
+    const std::string refused = use_steps(std::move(scene), [&](BuiltScene& built) {
         if (disturbance > 0.0) disturb(built, disturbance);
-        return run_built(built, stop_asked);
-    } catch (const SceneError& error) {
-        VariantRun refused;
-        refused.end = VariantEnd::refused;
-        refused.reason = error.what();
-        return refused;
-    }
+        run = run_built(built, stop_asked);
+    });
+    if (refused.empty()) return run;
+    VariantRun none;
+    none.end = VariantEnd::refused;
+    none.reason = refused;
+    return none;
 }
 
 Distances distances_between(const EndState& a, const EndState& b) {
@@ -178,13 +156,14 @@ Distances distances_between(const EndState& a, const EndState& b) {
             .stretch = std::abs(a.stretch - b.stretch)};
 }
 
-Distances scaled(const Distances& d, double factor) {
-    return {d.rms * factor, d.largest * factor, d.mass_centre * factor, d.lowest * factor, d.energy * factor, d.stretch * factor};
+Distances scaled(Distances distances, double factor) {
+    for (const auto distance : each_distance) distances.*distance *= factor;
+    return distances;
 }
 
-Distances larger(const Distances& a, const Distances& b) {
-    return {std::max(a.rms, b.rms),       std::max(a.largest, b.largest), std::max(a.mass_centre, b.mass_centre),
-            std::max(a.lowest, b.lowest), std::max(a.energy, b.energy),   std::max(a.stretch, b.stretch)};
+Distances larger(Distances a, const Distances& b) {
+    for (const auto distance : each_distance) a.*distance = std::max(a.*distance, b.*distance);
+    return a;
 }
 
 }  // namespace percale::scenes

@@ -1,14 +1,13 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <limits>
-#include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "format/scene_file.h"
-#include "run/run_scene.h"
+#include "study/run_variants.h"
+#include "study/scene_variant.h"
 
 // One run of a comparison: a scene stepped in a given way to its end, and how far two ends lie apart.
 namespace percale::scenes {
@@ -37,12 +36,6 @@ struct EndState {
     double stretch = 0.0;              // largest (l - l0)/l0 of a mesh edge
 };
 
-/// A stop was asked for.
-class ComparisonStopped : public std::runtime_error {
-public:
-    ComparisonStopped() : std::runtime_error("stopped") {}
-};
-
 struct VariantRun {
     VariantEnd end = VariantEnd::finished;
     std::string reason = {};  // why, if not finished
@@ -52,12 +45,9 @@ struct VariantRun {
     int rejected = 0;  // tried and found too inexact, or redone as shorter ones
 };
 
-/// Removes all frames but the first, and all expectations.
-void leave_only_steps(Scene& scene);
-
 /// Steps a scene to its end without writing, measuring or judging anything. `disturbance`: every free vertex starts so far, m,
 /// from where it should, in directions that depend on its number alone. A refusal by the scheme (an explicit one takes no
-/// obstacles) is an end like any other. Throws SceneError where the scene itself is wrong, ComparisonStopped after a stop.
+/// obstacles) is an end like any other. Throws SceneError where the scene itself is wrong, StudyStopped after a stop.
 VariantRun run_variant(const SceneSource& source, const Variant& variant, const std::function<bool()>& stop_asked,
                        double disturbance = 0.0);
 
@@ -71,10 +61,14 @@ struct Distances {
     double stretch = std::numeric_limits<double>::quiet_NaN();      // of an edge's length
 };
 
+/// All of them, in the order of tables.
+inline constexpr std::array<double Distances::*, 6> each_distance = {
+    &Distances::rms, &Distances::largest, &Distances::mass_centre, &Distances::lowest, &Distances::stretch, &Distances::energy};
+
 /// The two must have equally many vertices.
 Distances distances_between(const EndState& a, const EndState& b);
-Distances scaled(const Distances& distances, double factor);
+Distances scaled(Distances distances, double factor);
 /// The larger one of each of the distances.
-Distances larger(const Distances& a, const Distances& b);
+Distances larger(Distances a, const Distances& b);
 
 }  // namespace percale::scenes

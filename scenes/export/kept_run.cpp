@@ -116,6 +116,8 @@ std::optional<EndedRun> ended_run(const std::string& folder) {
         run.steps = json.value("steps", 0);
         run.simulated_s = json.value("simulated_s", 0.0);
         run.wall_s = json.value("wall_s", 0.0);
+        for (const auto& [name, value] : json.items())
+            if (value.is_number()) run.numbers[name] = value.get<double>();
         // Reports of earlier builds have no texts.
         for (const auto& one : json.value("expectations", nlohmann::json::array()))
             run.expectations.push_back({one.at("passed"), one.value("text", "")});

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,7 +22,11 @@ struct EndedRun {
     std::string status, reason;  // of RunVerdict
     int steps = 0;
     double simulated_s = 0.0, wall_s = 0.0;
-    std::vector<Expected> expectations;  // in the order of the scene
+    std::vector<Expected> expectations;     // in the order of the scene
+    std::map<std::string, double> numbers;  // measures, costs and whatever else the report says as one number, by its name
+
+    /// How many expectations passed.
+    std::size_t passed() const { return static_cast<std::size_t>(std::ranges::count(expectations, true, &Expected::passed)); }
 };
 
 /// Nothing where a run's folder holds no report, one that is not whole, or one of a run that was stopped.

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/whole_file.h"
 #include "percale/report.h"
@@ -15,6 +17,20 @@ std::string step_table_header();
 /// One line, without its end. Times in s, distance in m, energy (total) in J, 17 digits; an infinite distance is written as
 /// `inf`, an energy that was not measured as `nan`, hashes as 16 hexadecimal digits, an absent state hash as nothing.
 std::string step_table_line(const StepReport& report, std::optional<std::uint64_t> state_hash);
+
+/// A table of steps as it lies on the disk, cell by cell.
+struct StepRows {
+    std::string file;
+    std::vector<std::string> header;
+    std::vector<std::vector<std::string>> lines;  // the first is line 2 of the file
+
+    /// Where a column stands. Throws SceneError where there is none of that name.
+    std::size_t column(const std::string& name) const;
+};
+
+/// Throws SceneError naming the file where it cannot be read, with `advice`, and where a line has other than the header's count
+/// of cells. A last line without its end, as a run that was killed leaves, is not there.
+StepRows read_step_rows(const std::string& file, const std::string& advice);
 
 /// steps.csv: one line a step, a failed one included.
 class StepTable {

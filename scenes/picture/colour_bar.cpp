@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 
 #include "common/text.h"
@@ -19,15 +18,6 @@ constexpr double min_capital = 6.0;
 constexpr double nearest_numbers = 0.45;
 
 double bar_capital(int height) { return std::max(min_capital, capital_share * height); }
-
-/// A multiple of the step without the rounding of the product: 0.3, not 0.30000000000000004.
-std::string multiple_text(double value, double step) {
-    const int digits = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 12);
-    char text[48];
-    if (std::abs(value) >= 1e6 || step < 1e-6) return short_number(value);
-    std::snprintf(text, sizeof text, "%.*f", digits, value == 0.0 ? 0.0 : value);
-    return text;
-}
 
 }  // namespace
 

@@ -30,14 +30,6 @@ const std::vector<PictureField>& known_fields() {
     return fields;
 }
 
-/// 1, 2 or 5 times a power of ten, not below `least`.
-double round_step(double min) {
-    const double power = std::pow(10.0, std::floor(std::log10(min)));
-    for (const double digit : {1.0, 2.0, 5.0})
-        if (digit * power >= min * (1.0 - round_slack)) return digit * power;
-    return 10.0 * power;
-}
-
 FieldRange widened(double low, double high) {
     if (low < 0.0 && high > 0.0) high = std::max(-low, high), low = -high;
     const double largest = std::max(std::abs(low), std::abs(high)), size = largest > 0.0 ? largest : 1.0;

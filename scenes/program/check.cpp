@@ -4,10 +4,8 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <span>
-#include <thread>
 
 #include "common/text.h"
 #include "common/whole_file.h"
@@ -23,6 +21,7 @@
 #include "run/run_verdict.h"
 #include "run/scene_plan.h"
 #include "run/start_fault.h"
+#include "study/run_variants.h"
 
 namespace percale::program {
 
@@ -153,60 +152,31 @@ void print_outcome(const CheckOptions& options, const Outcome& outcome) {
     std::fflush(stdout);
 }
 
-/// Hands scenes to threads and prints what is done in the order of the scenes.
-class Checker {
-public:
-    Checker(const CheckOptions& options, const StopSignals& signals)
-        : options_(options),
-          signals_(signals),
-          outcomes_(options.scenes.size()),
-          done_(options.scenes.size(), false),
-          bar_(!options.common.quiet && options.scenes.size() > 1, static_cast<double>(options.scenes.size()), {"scenes", 0}) {}
-
-    std::vector<Outcome> check_all() {
-        const std::size_t jobs = std::min(static_cast<std::size_t>(options_.jobs), options_.scenes.size());
-        std::vector<std::thread> threads;
-        for (std::size_t i = 1; i < jobs; ++i) threads.emplace_back([this] { work(); });
-        work();
-        for (std::thread& thread : threads) thread.join();
-        return std::move(outcomes_);
-    }
-
-private:
-    void work() {
-        for (std::size_t i = take(); i < outcomes_.size(); i = take()) {
-            Outcome outcome = check_scene(options_.scenes[i], options_, signals_);
-            const std::lock_guard lock(mutex_);
-            outcomes_[i] = std::move(outcome);
-            done_[i] = true;
-            bar_.clear();
-            for (; printed_ < done_.size() && done_[printed_]; ++printed_) print_outcome(options_, outcomes_[printed_]);
-            const auto checked = std::count(done_.begin(), done_.end(), true);
-            if (printed_ < done_.size()) bar_.show(static_cast<double>(checked));
-        }
-    }
-
-    std::size_t take() {
-        const std::lock_guard lock(mutex_);
-        return next_++;
-    }
-
-    const CheckOptions& options_;
-    const StopSignals& signals_;
-    std::vector<Outcome> outcomes_;
-    std::vector<bool> done_;
-    std::size_t next_ = 0, printed_ = 0;
-    ProgressBar bar_;
-    std::mutex mutex_;
-};
+/// Checks all scenes and prints what is done in their order.
+std::vector<Outcome> check_all(const CheckOptions& options, const StopSignals& signals) {
+    const std::size_t count = options.scenes.size();
+    std::vector<Outcome> outcomes(count);
+    std::vector<bool> done(count, false);
+    std::size_t printed = 0, checked = 0;
+    ProgressBar bar(!options.common.quiet && count > 1, static_cast<double>(count), {"scenes", 0});
+    const auto ended = [&](std::size_t i) {
+        done[i] = true;
+        ++checked;
+        bar.clear();
+        for (; printed < count && done[printed]; ++printed) print_outcome(options, outcomes[printed]);
+        if (printed < count) bar.show(static_cast<double>(checked));
+    };
+    run_variants(count, {.jobs = options.jobs, .ended = ended},
+                 [&](std::size_t i) { outcomes[i] = check_scene(options.scenes[i], options, signals); });
+    return outcomes;
+}
 
 void check_options(const CheckOptions& options) {
     scene_overrides(options.common);  // a wrong --set is reported once, not for each scene
     if (!options.common.frames.empty() && options.common.frames != "none")
         throw SceneError("--frames " + options.common.frames + ": check writes no frames; percale run does");
     if (!options.junit.empty()) const WholeFile probe(options.junit);  // found before the work, not after it
-    if (options.jobs < 1 || options.jobs > 256)
-        throw SceneError("--jobs " + std::to_string(options.jobs) + " is outside the allowed range 1 ... 256");
+    check_range("--jobs", options.jobs, 1, 256);
     if (options.resume.empty()) return;
     const OutputFolder probe(options.resume);
     std::map<std::string, std::string> scene_of;
@@ -225,7 +195,7 @@ int check(CheckOptions options) {
         options.program = program_checksum();
     }
     const StopSignals signals;
-    const std::vector<Outcome> outcomes = Checker(options, signals).check_all();
+    const std::vector<Outcome> outcomes = check_all(options, signals);
     std::vector<CheckedScene> scenes;
     std::size_t finished = 0, expectations = 0, passed = 0, kept = 0;
     int worst = all_well;

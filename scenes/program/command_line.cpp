@@ -22,7 +22,7 @@ namespace percale::program {
 namespace {
 
 const std::vector<std::string> commands = {"run",     "plan",   "check",  "explain", "certify", "drape",  "compare", "doctor",
-                                           "picture", "render", "replay", "report",  "sew",     "stress", "sweep"};
+                                           "picture", "render", "replay", "report",  "sew",     "stress", "study",   "sweep"};
 
 /// Says what is wrong with a command name better than the parser, which takes it for a stray argument.
 void check_command_name(const std::string& word) {
@@ -114,14 +114,12 @@ int parse_and_act(int argc, char** argv) {
     add_explain_command(program, action);
     add_certify_command(program, action);
     add_drape_command(program, action);
-    add_compare_command(program, action);
     add_doctor_command(program, action);
     add_picture_command(program, action);
     add_replay_command(program, action);
     add_report_command(program, action);
     add_sew_command(program, action);
-    add_stress_command(program, action);
-    add_sweep_command(program, action);
+    add_study_commands(program, action);
     std::vector<std::string> words = with_help_option({argv + 1, argv + argc});
     if (!words.empty()) check_command_name(words.front());
     const bool drapes = !words.empty() && words.front() == "drape";

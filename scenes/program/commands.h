@@ -17,14 +17,14 @@ void add_plan_command(CLI::App& program, Action& action);
 void add_check_command(CLI::App& program, Action& action);
 void add_explain_command(CLI::App& program, Action& action);
 void add_certify_command(CLI::App& program, Action& action);
-void add_compare_command(CLI::App& program, Action& action);
 void add_doctor_command(CLI::App& program, Action& action);
 void add_drape_command(CLI::App& program, Action& action);
 void add_picture_command(CLI::App& program, Action& action);
 void add_replay_command(CLI::App& program, Action& action);
 void add_report_command(CLI::App& program, Action& action);
 void add_sew_command(CLI::App& program, Action& action);
-void add_stress_command(CLI::App& program, Action& action);
-void add_sweep_command(CLI::App& program, Action& action);
+
+/// Adds study, and its presets as commands: compare, stress, sweep.
+void add_study_commands(CLI::App& program, Action& action);
 
 }  // namespace percale::program

@@ -97,6 +97,12 @@ std::string default_folder(const std::string& scene) {
     return stem;
 }
 
+void check_range(const char* option, double value, double lowest, double highest, const char* unit) {
+    if (value >= lowest && value <= highest) return;
+    throw SceneError(std::string(option) + " " + scenes::number_text(value) + " is outside the allowed range " +
+                     scenes::number_text(lowest) + " ... " + scenes::number_text(highest) + unit);
+}
+
 void check_once(const char* option, const std::vector<std::string>& values) {
     for (auto value = values.begin(); value != values.end(); ++value)
         if (std::find(values.begin(), value, *value) != value)

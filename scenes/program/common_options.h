@@ -43,6 +43,9 @@ void check_as_key(const scenes::SceneSource& source, const char* key, const char
 /// The name of the scene file without its ending. Throws SceneError if that is empty.
 std::string default_folder(const std::string& scene);
 
+/// Throws SceneError naming the option if a value is outside of a range.
+void check_range(const char* option, double value, double lowest, double highest, const char* unit = "");
+
 /// Throws SceneError naming the option if a value is there twice.
 void check_once(const char* option, const std::vector<std::string>& values);
 

@@ -18,21 +18,20 @@ struct ReplayOptions {
 };
 
 int replay(const ReplayOptions& options) {
-    const std::vector<StepHashes> first = read_step_hashes(options.first), second = read_step_hashes(options.second);
+    const StepRows first = read_hashed_steps(options.first), second = read_hashed_steps(options.second);
     const ReplayDifference difference = compare_steps(first, second);
     if (difference.step != 0) {
-        const StepHashes& step = first[difference.step - 1];
         std::printf("step %zu at %s s: %s is %s in %s, %s in %s; %zu steps before it are the same\n", difference.step,
-                    step.time.c_str(), difference.what.c_str(), difference.first.c_str(), options.first.c_str(),
+                    difference.time.c_str(), difference.what.c_str(), difference.first.c_str(), options.first.c_str(),
                     difference.second.c_str(), options.second.c_str(), difference.step - 1);
         return not_as_expected;
     }
-    if (first.size() != second.size()) {
-        std::printf("%s has %zu steps, %s %zu; the %zu of both are the same\n", options.first.c_str(), first.size(),
-                    options.second.c_str(), second.size(), difference.steps_of_both);
+    if (first.lines.size() != second.lines.size()) {
+        std::printf("%s has %zu steps, %s %zu; the %zu of both are the same\n", options.first.c_str(), first.lines.size(),
+                    options.second.c_str(), second.lines.size(), difference.steps_of_both);
         return not_as_expected;
     }
-    std::printf("the same: %zu steps\n", first.size());
+    std::printf("the same: %zu steps\n", first.lines.size());
     return all_well;
 }
 

@@ -1,9 +1,6 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -14,13 +11,13 @@
 #include "common/whole_file.h"
 #include "export/kept_run.h"
 #include "percale/error.h"
-#include "program/commands.h"
 #include "program/exit_codes.h"
 #include "program/progress_bar.h"
-#include "program/stop_signals.h"
-#include "sweep/batch_files.h"
-#include "sweep/study_table.h"
-#include "sweep/study_workers.h"
+#include "program/study.h"
+#include "study/batch_files.h"
+#include "study/run_variants.h"
+#include "study/study_table.h"
+#include "study/worker.h"
 
 namespace percale::program {
 
@@ -30,43 +27,34 @@ using namespace percale::scenes;
 
 constexpr std::size_t reported_runs = 10;
 
-struct SweepOptions {
-    std::string study, folder, range;
-    int jobs = 1;
-    bool slurm = false, collect = false, quiet = false;
-};
-
 /// A study file, or the folder of a study that was begun.
 struct OpenStudy {
     Study study;
     StudyFolder folder;
 };
 
-OpenStudy opened(const SweepOptions& options) {
-    if (std::filesystem::is_directory(options.study)) {
+OpenStudy opened(const StudyOptions& options) {
+    if (std::filesystem::is_directory(options.file)) {
         if (!options.folder.empty()) throw SceneError("-o " + options.folder + ": the study's folder is named already");
-        const StudyFolder folder(options.study);
+        const StudyFolder folder(options.file);
         return {stored_study(folder.file("study.json")), folder};
     }
-    Study study = read_study(options.study);
-    const std::string name = std::filesystem::path(options.study).stem().string();
-    const StudyFolder folder(options.folder.empty() ? name : options.folder);
+    Study study = read_study(options.file);
+    const StudyFolder folder(options.folder.empty() ? default_folder(options.file) : options.folder);
     folder.begin(study);
     return {std::move(study), folder};
 }
 
 /// All runs, or FIRST-LAST where that is given.
-std::vector<std::size_t> asked_runs(const SweepOptions& options, const OpenStudy& open) {
+std::vector<std::size_t> asked_runs(const StudyOptions& options, const OpenStudy& open) {
     std::vector<std::size_t> runs(open.study.runs.size());
     std::iota(runs.begin(), runs.end(), std::size_t{0});
     if (options.range.empty()) return runs;
     std::size_t first = 0, last = 0;
-    const char *begin = options.range.data(), *end = begin + options.range.size();
-    const auto [dash, error] = std::from_chars(begin, end, first);
-    const bool whole = error == std::errc() && dash != end && *dash == '-';
-    const auto [stop, second] =
-        whole ? std::from_chars(dash + 1, end, last) : std::from_chars_result{begin, std::errc::invalid_argument};
-    if (second != std::errc() || stop != end || first > last || last >= runs.size())
+    int end = 0;
+    const bool two = std::sscanf(options.range.c_str(), "%zu-%zu%n", &first, &last, &end) == 2 &&
+                     options.range[static_cast<std::size_t>(end)] == 0;
+    if (!two || first > last || last >= runs.size())
         throw SceneError("--run " + options.range + ": must be FIRST-LAST, 0 ... " + std::to_string(runs.size() - 1));
     std::erase_if(runs, [&](std::size_t run) { return run < first || run > last; });
     return runs;
@@ -74,9 +62,9 @@ std::vector<std::size_t> asked_runs(const SweepOptions& options, const OpenStudy
 
 void write_batch_files(const OpenStudy& open) {
     const BatchFiles files = batch_files(open.study, open.folder, own_program());
-    write_whole_file(open.folder.file("slurm.sh"), files.slurm);
-    write_whole_file(open.folder.file("Makefile"), files.makefile);
-    write_whole_file(open.folder.file("commands.txt"), files.commands);
+    for (const auto& [name, text] :
+         {std::pair("slurm.sh", files.slurm), {"Makefile", files.makefile}, {"commands.txt", files.commands}})
+        write_whole_file(open.folder.file(name), text);
 }
 
 /// What a command prints; throws SceneError with that where it fails.
@@ -92,14 +80,14 @@ std::string output_of(const std::string& command) {
 }
 
 /// Submits the array, and behind it a job that gathers the tables.
-int submit(const SweepOptions& options, const OpenStudy& open) {
+int submit(const StudyOptions& options, const OpenStudy& open) {
     const std::string script = open.folder.file("slurm.sh");
     const std::string job = output_of("sbatch --parsable " + shell_word(script));
     const std::string collect = shell_word(own_program()) + " sweep " +
                                 shell_word(std::filesystem::absolute(open.folder.path()).string()) + " --collect --quiet";
     const std::string after =
         output_of("sbatch --parsable --output=/dev/null --dependency=afterany:" + job + " --wrap " + shell_word(collect));
-    if (!options.quiet)
+    if (!options.common.quiet)
         std::printf(
             "%zu runs as Slurm job %s, gathered into %s/study.csv by job %s; the same command without --slurm does here what is "
             "left\n",
@@ -131,66 +119,59 @@ std::size_t crossed_or_unsolved(const OpenStudy& open, std::span<const std::size
 }
 
 /// Writes the tables of the runs that are done; returns the exit code.
-int gather(const SweepOptions& options, const OpenStudy& open) {
+int gather(const StudyOptions& options, const OpenStudy& open) {
     const StudyTables tables = study_tables(open.study, open.folder);
     write_whole_file(open.folder.file("study.csv"), tables.csv);
     write_whole_file(open.folder.file("costs.csv"), tables.costs);
     write_whole_file(open.folder.file("study.svg"), tables.svg);
     const std::size_t all = open.study.runs.size();
-    if (!options.quiet)
+    if (!options.common.quiet)
         std::printf("%zu of %zu runs done, %zu failed, %zu not as expected; %s/study.csv, study.svg\n", tables.done, all,
                     tables.failed, tables.not_as_expected, open.folder.path().c_str());
     const std::size_t wrong = crossed_or_unsolved(open, asked_runs({}, open)) + tables.failed + tables.not_as_expected;
     return tables.done == all && wrong == 0 ? all_well : not_as_expected;
 }
 
-int sweep(const SweepOptions& options) {
-    if (options.jobs < 1 || options.jobs > 1024)
-        throw SceneError("--jobs " + std::to_string(options.jobs) + " is outside the allowed range 1 ... 1024");
+/// Makes these runs, each as a process; gives those that came to no end.
+std::vector<std::size_t> make_runs(const StudyOptions& options, const OpenStudy& open, const std::vector<std::size_t>& runs,
+                                   const StopSignals& signals) {
+    const std::string program = own_program();
+    const auto stop_asked = [&] { return signals.asked(); };
+    ProgressBar bar(!options.common.quiet, static_cast<double>(runs.size()), {"runs", 0});
+    std::vector<std::size_t> failed;
+    double ended = 0.0;
+    const VariantWork work{.jobs = options.jobs, .stop_asked = stop_asked, .ended = [&](std::size_t k) {
+                               if (!open.folder.is_done(runs[k]) && !signals.asked()) failed.push_back(runs[k]);
+                               bar.show(++ended);
+                           }};
+    run_variants(runs.size(), work, [&](std::size_t k) {
+        run_worker(run_words(open.study, open.folder, runs[k], program), open.folder.log_of(runs[k]), stop_asked);
+    });
+    return failed;
+}
+
+}  // namespace
+
+int sweep(const StudyOptions& options) {
+    check_range("--jobs", options.jobs, 1, max_study_jobs);
     const OpenStudy open = opened(options);
     if (options.collect) return gather(options, open);
     const std::vector<std::size_t> asked = asked_runs(options, open);
-    std::vector<std::size_t> runs = open.folder.left(open.study);
-    std::erase_if(runs, [&](std::size_t run) { return run < asked.front() || run > asked.back(); });
+    std::vector<std::size_t> runs = asked;
+    std::erase_if(runs, [&](std::size_t run) { return open.folder.is_done(run); });
     if (options.range.empty()) write_batch_files(open);
     if (options.slurm) return submit(options, open);
     std::optional<FolderLock> lock;  // of those that do all runs: with --run others do theirs at the same time
     if (options.range.empty()) lock.emplace(open.folder.path());
     const StopSignals signals;
-    ProgressBar bar(!options.quiet, static_cast<double>(runs.size()), {"runs", 0});
-    std::vector<std::size_t> failed;
-    double ended = 0.0;
-    StudyWork work{.program = own_program(), .jobs = options.jobs, .ended = {}, .stop_asked = {}};
-    work.ended = [&](const WorkerEnd& end) {
-        if (!open.folder.is_done(end.run) && !signals.asked()) failed.push_back(end.run);
-        bar.show(++ended);
-    };
-    work.stop_asked = [&] { return signals.asked(); };
-    do_runs(open.study, open.folder, runs, work);
-    bar.clear();
+    const std::vector<std::size_t> failed = make_runs(options, open, runs, signals);
     print_failures(open, failed);
     const auto well = [&] { return failed.empty() && crossed_or_unsolved(open, asked) == 0 ? all_well : not_as_expected; };
     const int code = options.range.empty() ? gather(options, open) : well();  // the tables are of all runs
     const bool left = std::ranges::any_of(runs, [&](std::size_t run) { return !open.folder.is_done(run); });
     if (!signals.asked() || !left) return code;
-    std::fprintf(stderr, "percale: %s: stopped; the same command goes on\n", options.study.c_str());
+    std::fprintf(stderr, "percale: %s: stopped; the same command goes on\n", options.file.c_str());
     return stopped_by_signal;
-}
-
-}  // namespace
-
-void add_sweep_command(CLI::App& program, Action& action) {
-    auto options = std::make_shared<SweepOptions>();
-    CLI::App* command = program.add_subcommand("sweep", "Run a scene with many values of its keys; one table of what comes out");
-    command->footer("Examples: percale sweep study.toml -o study --jobs 8\n          percale sweep study.toml -o study --slurm");
-    command->add_option("STUDY", options->study, "Study file (TOML), or the folder of one that was begun")->required();
-    command->add_option("-o", options->folder, "Folder of the runs and tables (default: the study's name)")->type_name("DIR");
-    command->add_option("--jobs", options->jobs, "Runs at a time (default 1)")->type_name("N");
-    command->add_flag("--slurm", options->slurm, "Submit the runs as a Slurm job array instead of doing them here");
-    command->add_option("--run", options->range, "Only these runs, and no tables")->type_name("FIRST-LAST");
-    command->add_flag("--collect", options->collect, "Only gather the tables of what is done");
-    command->add_flag("--quiet", options->quiet, "Print nothing but errors");
-    command->callback([options, &action] { action = [options] { return sweep(*options); }; });
 }
 
 }  // namespace percale::program

@@ -1,12 +1,12 @@
 #include "stress/stress.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "common/scene_file_error.h"
 #include "common/text.h"
-#include "compare/compare.h"
 #include "garment/vertex_selection.h"
 #include "percale/error.h"
 
@@ -14,11 +14,16 @@ namespace percale::scenes {
 
 namespace {
 
-StressRow refused(const StressCell& cell, const SceneError& error) {
+StressRow refused(const StressCell& cell, const std::string& why) {
     StressRow row{.cell = cell, .figures = {}, .verdict = StressVerdict::refused};
     row.figures.status = "refused";
-    row.figures.said = error.what();
+    row.figures.said = why;
     return row;
+}
+
+StressRow judged_row(const StressCell& cell, StressFigures figures) {
+    const StressVerdict verdict = verdict_of(figures);
+    return {cell, std::move(figures), verdict};
 }
 
 /// The watch by which the simulation is to be judged.
@@ -61,33 +66,26 @@ std::vector<HeldVertex> held_of(const BuiltScene& built) {
     return held;
 }
 
-StressRow run_built(const StressCell& cell, BuiltScene& built, int steps) {
-    StressRow row{.cell = cell, .figures = {}};
+StressFigures figures_of(const StressCell& cell, BuiltScene& built, int steps) {
     StressWatch watch = watch_of(cell, built.simulation, built.cloths, held_of(built));
     RunHooks hooks;
     hooks.step = [&](const StepReport& report, const Simulation& simulation) { watch.look(report, simulation); };
     hooks.stop_asked = [&] { return watch.figures.steps >= steps; };
     run_scene(built, hooks);
-    row.figures = std::move(watch.figures);
-    row.verdict = verdict_of(row.figures);
-    return row;
+    return std::move(watch.figures);
 }
 
-StressRow run_scene_cell(const SceneSource& source, const StressCell& cell, const std::string& word, int steps) {
-    const std::vector<Override> overrides{{"step.scheme", word, "--schemes"},
+StressRow run_scene_cell(const SceneSource& source, const StressCell& cell, int steps) {
+    const std::vector<Override> overrides{{"step.scheme", scheme_words()[static_cast<std::size_t>(cell.scheme)], "--schemes"},
                                           {"step.time_step", number_text(cell.time_step), "--steps"}};
     Scene scene = source(overrides);
-    leave_only_steps(scene);
     scene.duration = scene.latest_end();  // every scheme makes as many steps
     scene.until_rest = false;
     scene.step.measure = StepMeasures::ledger;
     for (auto& [name, fabric] : scene.fabrics) scale(fabric, cell.stiffness);
-    try {
-        BuiltScene built = build_scene(scene);
-        return run_built(cell, built, steps);
-    } catch (const SceneError& error) {
-        return refused(cell, error);
-    }
+    StressFigures figures;
+    const std::string why = use_steps(std::move(scene), [&](BuiltScene& built) { figures = figures_of(cell, built, steps); });
+    return why.empty() ? judged_row(cell, std::move(figures)) : refused(cell, why);
 }
 
 /// A change of gravity moves energy without work, so that no gain can be determined.
@@ -97,14 +95,12 @@ void refuse_gravity_events(const Scene& scene) {
             fail_at(event.place, "stress cannot judge the energy of a scene whose gravity changes");
 }
 
-Scheme scheme_named(const std::string& word) {
-    const std::vector<std::string> words = scheme_words();
-    return static_cast<Scheme>(std::find(words.begin(), words.end(), word) - words.begin());
-}
-
-void report_progress(const StressHooks& hooks, std::size_t made, std::size_t all) {
-    if (hooks.progress) hooks.progress(static_cast<int>(made), static_cast<int>(all));
-    if (made < all && hooks.stop_asked && hooks.stop_asked()) throw ComparisonStopped();
+/// The run with a row a cell, made by `row_of`.
+StressRun with_rows(StressRun run, std::span<const StressCell> cells, const VariantWork& work,
+                    const std::function<StressRow(const StressCell&)>& row_of) {
+    run.rows.resize(cells.size());
+    if (!run_variants(cells.size(), work, [&](std::size_t k) { run.rows[k] = row_of(cells[k]); })) throw StudyStopped();
+    return run;
 }
 
 }  // namespace
@@ -120,43 +116,36 @@ StressRow run_cell(const StressCell& cell, int steps) {
         StressWatch watch = watch_of(cell, made.simulation, made.cloths, made.held);
         const int max = std::isinf(made.simulation.plan().stable_step) ? steps : explicit_factor * steps;
         for (int n = 0; n < max && watch.figures.status == "ok"; ++n) watch.look(made.simulation.step(), made.simulation);
-        StressRow row{.cell = cell, .figures = std::move(watch.figures)};
-        row.verdict = verdict_of(row.figures);
-        return row;
+        return judged_row(cell, std::move(watch.figures));
     } catch (const SceneError& error) {
-        return refused(cell, error);
+        return refused(cell, error.what());
     }
 }
 
-StressRun stress_cells(std::span<const StressCell> cells, int steps, const StressHooks& hooks) {
-    StressRun run{.title = "small cloths", .steps = steps, .rows = {}};
-    for (const StressCell& cell : cells) {
-        run.rows.push_back(run_cell(cell, steps));
-        report_progress(hooks, run.rows.size(), cells.size());
-    }
-    return run;
+StressRun stress_cells(std::span<const StressCell> cells, int steps, const VariantWork& work) {
+    return with_rows({.title = "small cloths", .steps = steps, .rows = {}}, cells, work,
+                     [&](const StressCell& cell) { return run_cell(cell, steps); });
 }
 
-StressRun stress_scene(const SceneSource& source, const SceneStress& settings, const StressHooks& hooks) {
+std::vector<StressCell> scene_cells(const SceneStress& settings) {
+    const std::vector<std::string> words = scheme_words();
+    std::vector<StressCell> cells;
+    for (const std::string& scheme : settings.schemes.empty() ? words : settings.schemes)
+        for (const double time_step : settings.time_steps)
+            for (const double factor : settings.factors)
+                cells.push_back({.number = static_cast<int>(cells.size()),
+                                 .sweep = "scene",
+                                 .scheme = static_cast<Scheme>(std::ranges::find(words, scheme) - words.begin()),
+                                 .time_step = time_step,
+                                 .stiffness = factor});
+    return cells;
+}
+
+StressRun stress_scene(const SceneSource& source, const SceneStress& settings, const VariantWork& work) {
     const Scene scene = source({});
     refuse_gravity_events(scene);
-    StressRun run{.title = scene.title, .of_scene = true, .steps = settings.steps, .rows = {}};
-    const std::vector<std::string> schemes = settings.schemes.empty() ? scheme_words() : settings.schemes;
-    const std::size_t all = schemes.size() * settings.time_steps.size() * settings.factors.size();
-    for (const std::string& scheme : schemes) {
-        for (const double time_step : settings.time_steps) {
-            for (const double factor : settings.factors) {
-                const StressCell cell{.number = static_cast<int>(run.rows.size()),
-                                      .sweep = "scene",
-                                      .scheme = scheme_named(scheme),
-                                      .time_step = time_step,
-                                      .stiffness = factor};
-                run.rows.push_back(run_scene_cell(source, cell, scheme, settings.steps));
-                report_progress(hooks, run.rows.size(), all);
-            }
-        }
-    }
-    return run;
+    return with_rows({.title = scene.title, .of_scene = true, .steps = settings.steps, .rows = {}}, scene_cells(settings), work,
+                     [&](const StressCell& cell) { return run_scene_cell(source, cell, settings.steps); });
 }
 
 }  // namespace percale::scenes

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "../tolerances.h"
-#include "compare/compare_run.h"
 #include "stress/stress_watch.h"
+#include "study/run_variants.h"
+#include "study/scene_variant.h"
 
 // Cloth stepped in ways that break schemes: where each is stable, and whether what is not says so.
 namespace percale::scenes {
@@ -28,11 +28,6 @@ struct StressRun {
     int failures() const;
 };
 
-struct StressHooks {
-    std::function<bool()> stop_asked;        // asked after each cell
-    std::function<void(int, int)> progress;  // cells made, of how many; may be empty
-};
-
 /// The default matrix: a base sweep of time step, stiffness and scheme, and sweeps of masses, damping, meshes, starts and contact
 /// around some of its points. Always the same cells in the same order.
 std::vector<StressCell> stress_matrix();
@@ -40,8 +35,8 @@ std::vector<StressCell> stress_matrix();
 /// Runs one cell for so many steps, of an explicit scheme `explicit_factor` times as many.
 StressRow run_cell(const StressCell& cell, int steps);
 
-/// Runs cells in turn. Throws ComparisonStopped after a stop.
-StressRun stress_cells(std::span<const StressCell> cells, int steps, const StressHooks& hooks);
+/// Runs cells; the rows are the same whatever the number of jobs. Throws StudyStopped after a stop.
+StressRun stress_cells(std::span<const StressCell> cells, int steps, const VariantWork& work);
 
 /// Which steps, stiffness factors and schemes a scene is run with.
 struct SceneStress {
@@ -51,8 +46,11 @@ struct SceneStress {
     int steps = usual_steps;                                         // of each run, at most
 };
 
+/// Every scheme with every step and factor.
+std::vector<StressCell> scene_cells(const SceneStress& settings);
+
 /// The same with a scene: each run ends with the scene's duration or after so many steps. Throws SceneError where the scene is
-/// wrong, ComparisonStopped after a stop.
-StressRun stress_scene(const SceneSource& source, const SceneStress& settings, const StressHooks& hooks);
+/// wrong, StudyStopped after a stop.
+StressRun stress_scene(const SceneSource& source, const SceneStress& settings, const VariantWork& work);
 
 }  // namespace percale::scenes

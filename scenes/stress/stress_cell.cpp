@@ -159,19 +159,14 @@ void set_start(const StressCell& cell, StressCase& made) {
 
 }  // namespace
 
-const char* word_of(StressMesh mesh) {
-    constexpr std::array words = {"grid", "sliver", "random"};
-    return words[static_cast<std::size_t>(mesh)];
-}
+const char* word_of(StressMesh mesh) { return std::array{"grid", "sliver", "random"}[static_cast<std::size_t>(mesh)]; }
 
 const char* word_of(StressStart start) {
-    constexpr std::array words = {"hang", "thrown", "crumpled", "point"};
-    return words[static_cast<std::size_t>(start)];
+    return std::array{"hang", "thrown", "crumpled", "point"}[static_cast<std::size_t>(start)];
 }
 
 const char* word_of(StressContact contact) {
-    constexpr std::array words = {"none", "penalty", "projection"};
-    return words[static_cast<std::size_t>(contact)];
+    return std::array{"none", "penalty", "projection"}[static_cast<std::size_t>(contact)];
 }
 
 double largest_square(const StressCell& cell) {

@@ -13,6 +13,10 @@ constexpr std::array all_schemes = {Scheme::forward_euler,  Scheme::symplectic_e
                                     Scheme::tr_bdf2};
 constexpr std::array contact_schemes = {Scheme::backward_euler, Scheme::tr_bdf2};
 
+/// What the base sweep, thrown and of damping ratio 0.1, has none of.
+constexpr std::array other_dampings = {0.0, 1.0, 10.0};
+constexpr std::array hard_starts = {StressStart::hang, StressStart::crumpled, StressStart::point};
+
 struct BasePoint {
     double time_step, stiffness;  // s, N/m
 };
@@ -73,18 +77,10 @@ std::vector<StressCell> stress_matrix() {
     add_sweep(
         "mass ratio", all_schemes, 6, [](int k, StressCell& cell) { cell.mass_ratio = std::pow(10.0, k + 1); }, cells);
     add_sweep(
-        "damping", all_schemes, 3,
-        [](int k, StressCell& cell) {
-            cell.damping_ratio = std::array{0.0, 1.0, 10.0}[k];
-        },
-        cells);
+        "damping", all_schemes, 3, [](int k, StressCell& cell) { cell.damping_ratio = other_dampings[k]; }, cells);
     add_sweep("mesh", all_schemes, 4, change_mesh, cells);
     add_sweep(
-        "start", all_schemes, 3,
-        [](int k, StressCell& cell) {
-            cell.start = std::array{StressStart::hang, StressStart::crumpled, StressStart::point}[k];
-        },
-        cells);
+        "start", all_schemes, 3, [](int k, StressCell& cell) { cell.start = hard_starts[k]; }, cells);
     add_sweep("contact", contact_schemes, 8, change_contact, cells);
     for (std::size_t k = 0; k < cells.size(); ++k) cells[k].number = static_cast<int>(k);
     return cells;

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "report/map_svg.h"
+#include "report/plot_svg.h"
 #include "stress/stress.h"
 
 // What a run under stress says: as text, as a table for programs, as a map.
@@ -18,6 +18,6 @@ std::string stress_failures(const StressRun& run, int at_most);
 std::string stress_csv(const StressRun& run);
 
 /// One panel a scheme, time step against stiffness: of the default matrix its base sweep, with the limit of explicit schemes.
-ColourMap stress_map(const StressRun& run);
+Plot stress_map(const StressRun& run);
 
 }  // namespace percale::scenes

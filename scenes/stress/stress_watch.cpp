@@ -38,8 +38,7 @@ bool is_held(const Simulation& simulation, const HeldVertex& held) {
 }  // namespace
 
 const char* word_of(StressVerdict verdict) {
-    constexpr std::array words = {"stable", "refused", "not_finite", "gained", "silent"};
-    return words[static_cast<std::size_t>(verdict)];
+    return std::array{"stable", "refused", "not_finite", "gained", "silent"}[static_cast<std::size_t>(verdict)];
 }
 
 StressWatch::StressWatch(const Simulation& simulation, std::span<const ClothId> cloths, std::span<const HeldVertex> held)

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "scenes/compare/compare_run.h"
+#include "scenes/study/scene_variant.h"
 
 // Scenes of which the error of a scheme is known.
 namespace percale::scenes::test {

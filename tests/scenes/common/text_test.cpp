@@ -64,9 +64,25 @@ TEST_CASE("short numbers have three digits, and one of a thing has no s") {
     CHECK(short_number(1.0 / 60.0) == "0.0167");
     CHECK(short_number(12345678.0) == "1.23e+07");
     CHECK(short_number(30.0) == "30");
+    CHECK(short_number(1.0 / 60.0, 2) == "0.017");
+    CHECK(short_number(12345678.0, 2) == "1.2e+07");
     CHECK(counted(1, "step") == "1 step");
     CHECK(counted(0, "step") == "0 steps");
     CHECK(counted(12, "step") == "12 steps");
+}
+
+TEST_CASE("a round step is the smallest of 1, 2, 5 times powers of ten that is not below, and its multiples have its digits") {
+    CHECK(round_step(1.0) == 1.0);
+    CHECK(round_step(1.01) == 2.0);
+    CHECK(round_step(0.2) == Approx(0.2));
+    CHECK(round_step(0.21) == Approx(0.5));
+    CHECK(round_step(0.0051) == Approx(0.01));
+    CHECK(round_step(600.0) == Approx(1000.0));
+    CHECK(multiple_text(3.0 * 0.1, 0.1) == "0.3");
+    CHECK(multiple_text(5.0 * 0.02, 0.02) == "0.10");
+    CHECK(multiple_text(-0.0, 0.5) == "0.0");
+    CHECK(multiple_text(20.0, 5.0) == "20");
+    CHECK(multiple_text(3e-8, 1e-8) == "3e-08");
 }
 
 TEST_CASE("advice on a number with a decimal comma or a unit says how it is written") {

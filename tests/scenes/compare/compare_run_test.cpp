@@ -68,7 +68,7 @@ TEST_CASE("A run that blows up, one that is refused and one that is stopped are 
     const VariantRun refused = run_variant(source_of(sheet_on_box()), {"rk4", 1e-3, 0.0}, never_stop);
     CHECK(refused.end == VariantEnd::refused);
     CHECK(refused.reason.find("obstacles") != std::string::npos);
-    CHECK_THROWS_AS(run_variant(source_of(falling_sheet()), {"rk4", 1e-3, 0.0}, [] { return true; }), ComparisonStopped);
+    CHECK_THROWS_AS(run_variant(source_of(falling_sheet()), {"rk4", 1e-3, 0.0}, [] { return true; }), StudyStopped);
     CHECK(message_of([] { run_variant(source_of("[fabric.a]"), {"rk4", 1e-3, 0.0}, never_stop); }) != "");
 }
 

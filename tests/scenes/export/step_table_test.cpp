@@ -96,4 +96,18 @@ TEST_CASE("a step table has one line a step and is there only when finished") {
     CHECK(lines[2] == step_table_line(example(), 2));
 }
 
+TEST_CASE("A table is read back cell by cell, without a last line that was cut off; other tables are refused with their line") {
+    const TestFolder folder;
+    const std::string file = folder.write("steps.csv", step_table_header() + "\n" + step_table_line(example(), 7) + "\n0.1,0.2");
+    const StepRows rows = read_step_rows(file, "run writes it");
+    REQUIRE(rows.lines.size() == 1);
+    CHECK(rows.lines[0] == cells(step_table_line(example(), 7)));
+    CHECK(rows.lines[0][rows.column("newton")] == "3");
+    CHECK_THROWS_WITH(rows.column("mass"), Catch::Contains("steps.csv:1: is no table of steps: it has no column 'mass'"));
+    CHECK_THROWS_WITH(read_step_rows(folder.path("none"), "run writes it"),
+                      Catch::Contains("none: cannot be read; run writes it"));
+    folder.write("steps.csv", "time,dt\n1,2\n1,2,3\n");
+    CHECK_THROWS_WITH(read_step_rows(file, ""), Catch::Contains("steps.csv:3: has 3 columns, not 2"));
+}
+
 }  // namespace percale::scenes::test::step_table_test

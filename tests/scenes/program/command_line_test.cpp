@@ -9,13 +9,14 @@ TEST_CASE("the program says its version and its commands") {
     CHECK(version.out.rfind("percale ", 0) == 0);
     const ProgramRun help = run_program({"--help"});
     CHECK(help.exit_code == 0);
-    for (const char* command : {"run", "plan", "check", "explain", "certify", "drape", "doctor", "replay", "stress"})
+    for (const char* command : {"run", "plan", "check", "explain", "certify", "drape", "doctor", "replay", "stress", "study"})
         CHECK(help.out.find(command) != std::string::npos);
     CHECK(help.error.empty());
 }
 
 TEST_CASE("the help of every command shows an example of it") {
-    for (const std::string command : {"run", "plan", "check", "explain", "certify", "drape", "doctor", "replay", "stress"}) {
+    for (const std::string command :
+         {"run", "plan", "check", "explain", "certify", "drape", "doctor", "replay", "stress", "study"}) {
         const ProgramRun help = run_program({command, "--help"});
         INFO(command);
         CHECK(help.exit_code == 0);

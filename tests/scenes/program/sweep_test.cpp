@@ -1,7 +1,7 @@
 #include "scenes/common/folder_lock.h"
 #include "tests/scenes/program/run_program.h"
 #include "tests/scenes/program/started_run.h"
-#include "tests/scenes/sweep/study_files.h"
+#include "tests/scenes/study/study_files.h"
 #include "tests/support/catch.h"
 
 namespace percale::program::test::sweep_test {

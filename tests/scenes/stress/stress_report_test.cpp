@@ -27,10 +27,10 @@ StressRun small_run() {
 
 TEST_CASE("The summary counts verdicts and failures scheme by scheme") {
     const std::string text = stress_summary(small_run());
-    CHECK(text.find("rk4                         1          0          0          0          1          1\n") !=
-          std::string::npos);
-    CHECK(text.find("tr_bdf2                     1          0          0          1          0          1\n") !=
-          std::string::npos);
+    CHECK(text ==
+          "scheme   stable  refused  not_finite  gained  silent  failures\n"
+          "rk4           1        0           0       0       1         1\n"
+          "tr_bdf2       1        0           0       1       0         1\n");
     CHECK(std::count(text.begin(), text.end(), '\n') == 3);
 }
 
@@ -55,16 +55,26 @@ TEST_CASE("The table has a line a cell, with as many fields as headings") {
 }
 
 TEST_CASE("The map has a panel a scheme, and the theoretical limit where a scheme has one") {
-    const ColourMap map = stress_map(small_run());
-    REQUIRE(map.panels.size() == 2);
-    CHECK(map.panels[0].name == "rk4");
-    CHECK(map.panels[0].cells.size() == 2);
-    REQUIRE(map.panels[0].limit.size() == 1);
+    const Plot map = stress_map(small_run());
+    CHECK(map.panels == std::vector<std::string>{"rk4", "tr_bdf2"});
+    // Of each scheme a series a verdict, and of rk4 alone the limit.
+    REQUIRE(map.series.size() == 11);
+    for (std::size_t k = 0; k < map.series.size(); ++k) {
+        const PlotSeries& series = map.series[k];
+        CAPTURE(k, series.name);
+        CHECK(series.panel == (k < 6 ? 0u : 1u));
+        CHECK(series.marks == (k == 5 ? PlotMarks::curve : PlotMarks::cells));
+        const bool filled = k == 0 || k == 4 || k == 5 || k == 6 || k == 9;
+        CHECK(series.points.size() == (filled ? 1u : 0u));
+    }
+    CHECK(map.series[4].name == "silent");
+    CHECK(map.series[9].name == "gained");
     const double omega = std::sqrt(largest_square({.stiffness = 100.0}));
-    CHECK(map.panels[0].limit[0].x * omega > 2.0);
-    CHECK(map.panels[0].limit[0].x * omega < 3.2);
-    CHECK(map.panels[1].limit.empty());
-    CHECK(map.legend.size() == 5);
+    CHECK(map.series[5].points[0].x * omega > 2.0);
+    CHECK(map.series[5].points[0].x * omega < 3.2);
+    StressRun of_scene = small_run();
+    of_scene.of_scene = true;
+    CHECK(stress_map(of_scene).series.size() == 10);
 }
 
 }  // namespace percale::scenes::test::stress_report_test

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "sweep/study_folder.h"
+#include "study/study_folder.h"
 
 namespace percale::scenes {
 

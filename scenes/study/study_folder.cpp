@@ -1,4 +1,4 @@
-#include "sweep/study_folder.h"
+#include "study/study_folder.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -33,18 +33,21 @@ void StudyFolder::begin(const Study& study) const {
 
 bool StudyFolder::is_done(std::size_t run) const { return ended_run(folder_of(run)).has_value(); }
 
-std::vector<std::size_t> StudyFolder::left(const Study& study) const {
-    std::vector<std::size_t> runs;
-    for (std::size_t run = 0; run < study.runs.size(); ++run)
-        if (!is_done(run)) runs.push_back(run);
-    return runs;
-}
-
 std::string StudyFolder::complaint_of(std::size_t run) const {
     std::ifstream in(log_of(run));
     std::string line;
     std::getline(in, line);
     return line;
+}
+
+std::vector<std::string> run_words(const Study& study, const StudyFolder& folder, std::size_t run, const std::string& program) {
+    std::vector<std::string> words = {program,   "run",   study.scene,     "-o", folder.folder_of(run),
+                                      "--quiet", "--set", "step.threads=1"};
+    for (const Override& change : overrides_of(study, run)) {
+        words.push_back("--set");
+        words.push_back(change.key + "=" + change.value);
+    }
+    return words;
 }
 
 }  // namespace percale::scenes

@@ -1,8 +1,8 @@
-#include "scenes/sweep/study_table.h"
+#include "scenes/study/study_table.h"
 
 #include <algorithm>
 
-#include "tests/scenes/sweep/study_files.h"
+#include "tests/scenes/study/study_files.h"
 #include "tests/support/catch.h"
 
 namespace percale::scenes::test::study_table_test {

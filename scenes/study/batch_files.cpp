@@ -1,4 +1,4 @@
-#include "sweep/batch_files.h"
+#include "study/batch_files.h"
 
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-#include "scenes/sweep/study.h"
+#include "scenes/study/study.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "percale/error.h"
 #include "scenes/common/whole_file.h"
-#include "tests/scenes/sweep/study_files.h"
+#include "tests/scenes/study/study_files.h"
 #include "tests/support/catch.h"
 
 namespace percale::scenes::test::study_test {
@@ -36,6 +36,7 @@ TEST_CASE("runs are all combinations of lists and ranges, the last key fastest")
     CHECK(std::stod(study.runs[1][1]) == Approx(std::sqrt(1e-5)));
     CHECK(study.runs[3] == std::vector<std::string>{"0.1", "0.001", "\"rk4\""});
     CHECK(study.plot_key == "fabric.sheet.springs.bend");
+    CHECK(study.forms == std::vector<std::string>{"list", "log", "list"});
     const std::vector<Override> overrides = overrides_of(study, 4);
     REQUIRE(overrides.size() == 4);
     CHECK(overrides[0].key == "fabric.sheet.springs.bend");
@@ -99,6 +100,31 @@ TEST_CASE("what is no study is refused with its place and what it should be") {
     CHECK_THROWS_AS(read_study(folder.path("absent.toml")), SceneError);
 }
 
+TEST_CASE("how values were said is known: at random or not, evenly or evenly in the logarithm") {
+    const TestFolder folder;
+    const Study study = read_study(write_study(folder,
+                                               "\"step.time_step\" = { from = 0.005, to = 0.01, count = 2 }\n"
+                                               "\"fabric.sheet.area_density\" = { log_uniform = [0.1, 0.4] }\n"
+                                               "\"fabric.sheet.springs.bend\" = { normal = [0.1, 0.01] }\n",
+                                               "draws = 2\n"));
+    CHECK(study.forms == std::vector<std::string>{"linear", "log_uniform", "normal"});
+    CHECK(is_random_form("uniform"));
+    CHECK(is_random_form("normal"));
+    CHECK(is_random_form("log_uniform"));
+    CHECK_FALSE((is_random_form("list") || is_random_form("linear") || is_random_form("log")));
+    CHECK((is_log_form("log") && is_log_form("log_uniform")));
+    CHECK_FALSE((is_log_form("list") || is_log_form("linear") || is_log_form("uniform") || is_log_form("normal")));
+}
+
+TEST_CASE("a study file is known from a scene file, and what is no TOML is refused") {
+    const TestFolder folder;
+    CHECK(is_study_file(write_study(folder, "\"step.time_step\" = [0.01]\n")));
+    CHECK(is_study_file(folder.write("begun.toml", "[vary]\n")));
+    CHECK_FALSE(is_study_file(folder.path("sheet.toml")));
+    CHECK_THROWS_AS(is_study_file(folder.write("broken.toml", "scene = [")), SceneError);
+    CHECK_THROWS_AS(is_study_file(folder.path("absent.toml")), SceneError);
+}
+
 TEST_CASE("a study is stored with the settings of its scene and comes back") {
     const TestFolder folder;
     const Study study = read_study(write_study(folder, "\"step.time_step\" = [0.01, 0.005]\n", "frames = \"obj\"\n"));
@@ -106,8 +132,12 @@ TEST_CASE("a study is stored with the settings of its scene and comes back") {
     const Study again = stored_study(folder.write("study.json", text));
     CHECK(again.keys == study.keys);
     CHECK(again.runs == study.runs);
+    CHECK(again.forms == study.forms);
     CHECK(again.frames == "obj");
     CHECK(again.plot_measure == study.plot_measure);
+    std::string earlier = text;
+    earlier.replace(earlier.find("\"forms\""), 7, "\"other\"");  // what had none
+    CHECK(stored_study(folder.write("earlier.json", earlier)).forms == std::vector<std::string>{"list"});
     std::string sheet = folder.read("sheet.toml");
     sheet.replace(sheet.find("area_density = 0.2"), 18, "area_density = 0.3");
     folder.write("sheet.toml", sheet);

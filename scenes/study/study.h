@@ -22,9 +22,24 @@ struct Study {
     std::string file, scene;  // paths that open
     std::string frames = "none";
     std::string plot_key = {}, plot_measure = "largest_strain";
-    std::vector<std::string> keys;               // in the order of the file
+    std::vector<std::string> keys;   // in the order of the file
+    std::vector<std::string> forms;  // of each, how its values were said: list, linear, log, uniform, log_uniform, normal
     std::vector<std::vector<std::string>> runs;  // of each run the values of the keys, as --set takes them
 };
+
+/// Whether values said in this form are random.
+bool is_random_form(const std::string& form);
+/// Whether they are spread evenly in the logarithm.
+bool is_log_form(const std::string& form);
+
+/// Whether a file is a study: TOML with `scene` or [vary] at the top, which no scene has. Throws SceneError for what cannot be
+/// read or is no TOML.
+bool is_study_file(const std::string& file);
+
+/// Whether a value, as --set takes it, is a number.
+bool is_number(const std::string& value);
+/// A value as people read it: a text without its quotes.
+std::string shown_value(const std::string& value);
 
 /// Runs of one study.
 inline constexpr std::size_t max_runs = 1000000;

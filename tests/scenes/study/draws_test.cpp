@@ -1,4 +1,4 @@
-#include "scenes/sweep/draws.h"
+#include "scenes/study/draws.h"
 
 #include <cmath>
 

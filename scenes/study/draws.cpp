@@ -1,4 +1,4 @@
-#include "sweep/draws.h"
+#include "study/draws.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,7 @@
-#include "scenes/sweep/study_folder.h"
+#include "scenes/study/study_folder.h"
 
 #include "percale/error.h"
-#include "tests/scenes/sweep/study_files.h"
+#include "tests/scenes/study/study_files.h"
 #include "tests/support/catch.h"
 
 namespace percale::scenes::test::study_folder_test {
@@ -31,12 +31,21 @@ TEST_CASE("a run is done once its report is whole, failed or not, but not where 
     report(0, "{\"status\": \"finished\"}");
     report(1, "{\"status\": \"failed\"}");
     report(2, "{\"status\": \"stopped\"}");
-    CHECK(runs.left(study) == std::vector<std::size_t>{2, 3});
+    CHECK(runs_left(runs, study) == std::vector<std::size_t>{2, 3});
     report(3, "{\"status\": \"fini");
     CHECK_FALSE(runs.is_done(3));
     folder.write("out/runs/00003.log", "percale: no space\nmore\n");
     CHECK(runs.complaint_of(3) == "percale: no space");
     CHECK(runs.complaint_of(0).empty());
+}
+
+TEST_CASE("a run is made by its folder, one thread and the values of its keys") {
+    const TestFolder folder;
+    const Study study = read_study(write_study(folder, "\"step.time_step\" = [0.01, 0.005]\n"));
+    const StudyFolder runs(folder.path("out"));
+    CHECK(run_words(study, runs, 1, "percale") ==
+          std::vector<std::string>{"percale", "run", study.scene, "-o", runs.folder_of(1), "--quiet", "--set", "step.threads=1",
+                                   "--set", "step.time_step=0.005", "--set", "output.frames=none"});
 }
 
 }  // namespace percale::scenes::test::study_folder_test

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sweep/study.h"
+#include "study/study.h"
 
 namespace percale::scenes {
 
@@ -21,12 +21,14 @@ public:
     void begin(const Study& study) const;
     /// Whether a run has ended by itself: its report is there, whole, and does not say that it was stopped.
     bool is_done(std::size_t run) const;
-    std::vector<std::size_t> left(const Study& study) const;
     /// The first line of a run's log; "" without one.
     std::string complaint_of(std::size_t run) const;
 
 private:
     std::string path_;
 };
+
+/// The words of the command line by which `program`, a path of percale, makes a run.
+std::vector<std::string> run_words(const Study& study, const StudyFolder& folder, std::size_t run, const std::string& program);
 
 }  // namespace percale::scenes

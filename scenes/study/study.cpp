@@ -1,4 +1,4 @@
-#include "sweep/study.h"
+#include "study/study.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@
 #include "format/expectations.h"
 #include "format/scene_file.h"
 #include "percale/error.h"
-#include "sweep/draws.h"
+#include "study/draws.h"
 
 namespace percale::scenes {
 
@@ -27,16 +27,23 @@ using nlohmann::ordered_json;
 
 /// How a key goes through the runs: its values one after another, or one drawn for each run.
 struct Variation {
-    std::vector<std::string> values;
-    std::function<double(Draws&)> draw;  // null: of `values`
+    std::string form = "list";
+    std::vector<std::string> values = {};
+    std::function<double(Draws&)> draw = {};  // null: of `values`
 };
 
 const std::vector<std::string> study_keys = {"scene", "seed", "draws", "frames", "plot", "vary"};
 const std::vector<std::string> range_forms = {"from", "to", "count", "scale"};
 const std::vector<std::string> random_forms = {"uniform", "log_uniform", "normal"};
 
-[[noreturn]] void fail_unknown(const TomlNode& node, const std::string& table, const std::vector<std::string>& valid) {
-    fail_at(node.key_place, "unknown key '" + node.key + "' in " + table + suggestion(node.key, valid));
+bool is_in(const std::vector<std::string>& words, const std::string& word) {
+    return std::ranges::find(words, word) != words.end();
+}
+
+void check_known(const TomlNode& table, const std::string& shown, const std::vector<std::string>& valid) {
+    for (const TomlNode& node : table.entries)
+        if (!is_in(valid, node.key))
+            fail_at(node.key_place, "unknown key '" + node.key + "' in " + shown + suggestion(node.key, valid));
 }
 
 double number_at(const TomlNode& table, const std::string& key) {
@@ -54,8 +61,7 @@ long whole_number(const TomlNode& node, const std::string& shown, long lowest, l
 }
 
 Variation range_of(const TomlNode& node) {
-    for (const TomlNode& entry : node.entries)
-        if (std::ranges::find(range_forms, entry.key) == range_forms.end()) fail_unknown(entry, "a range", range_forms);
+    check_known(node, "a range", range_forms);
     const double from = number_at(node, "from"), to = number_at(node, "to");
     number_at(node, "count");
     const long count = whole_number(*node.find("count"), "count", 2, max_runs);
@@ -63,7 +69,7 @@ Variation range_of(const TomlNode& node) {
     const bool log = scale != nullptr && scale->text == "log";
     if (scale != nullptr && !log && scale->text != "linear") fail_at(scale->place, "scale must be \"linear\" or \"log\"");
     if (log && !(from > 0.0 && to > 0.0)) fail_at(node.place, "a logarithmic range must be of numbers above 0");
-    Variation variation;
+    Variation variation{.form = log ? "log" : "linear"};
     for (long k = 0; k < count; ++k) {
         const double share = static_cast<double>(k) / static_cast<double>(count - 1);
         const double value =
@@ -82,12 +88,12 @@ Variation random_of(const TomlNode& node, const std::string& form) {
     const double a = pair.items[0].number, b = pair.items[1].number;
     if (form == "normal") {
         if (!(b >= 0.0)) fail_at(pair.place, "normal = [mean, deviation]: the deviation must be at least 0");
-        return {{}, [=](Draws& draws) { return draws.normal(a, b); }};
+        return {form, {}, [=](Draws& draws) { return draws.normal(a, b); }};
     }
     if (!(a <= b)) fail_at(pair.place, form + " ends before it begins");
-    if (form == "uniform") return {{}, [=](Draws& draws) { return draws.uniform(a, b); }};
+    if (form == "uniform") return {form, {}, [=](Draws& draws) { return draws.uniform(a, b); }};
     if (!(a > 0.0)) fail_at(pair.place, "log_uniform must be of numbers above 0");
-    return {{}, [=](Draws& draws) { return draws.log_uniform(a, b); }};
+    return {form, {}, [=](Draws& draws) { return draws.log_uniform(a, b); }};
 }
 
 Variation variation_of(const TomlNode& node) {
@@ -140,50 +146,56 @@ std::string text_at(const TomlNode& document, const std::string& key) {
 
 /// plot = [KEY, MEASURE]; without, the first key that has numbers.
 void choose_plot(Study& study, const TomlNode* node) {
-    const auto is_number = [](const std::string& text) {
-        char* end = nullptr;
-        std::strtod(text.c_str(), &end);
-        return !text.empty() && *end == '\0';
-    };
-    for (std::size_t k = 0; k < study.keys.size() && study.plot_key.empty(); ++k)
-        if (is_number(study.runs.front()[k])) study.plot_key = study.keys[k];
+    std::vector<std::string> numeric, measures;
+    for (std::size_t k = 0; k < study.keys.size(); ++k)
+        if (std::ranges::all_of(study.runs, [&](const auto& run) { return is_number(run[k]); })) numeric.push_back(study.keys[k]);
+    if (!numeric.empty()) study.plot_key = numeric.front();
     if (node == nullptr) return;
+    for (const MeasureDescription& measure : measure_descriptions()) measures.push_back(measure.name);
     const bool two = node->kind == TomlKind::list && node->items.size() == 2;
     if (!two) fail_at(node->place, "plot must be a list of a key and a measure, not " + described(*node));
     study.plot_key = node->items[0].text;
     study.plot_measure = node->items[1].text;
-    std::vector<std::string> measures;
-    for (const MeasureDescription& measure : measure_descriptions()) measures.push_back(measure.name);
-    if (std::ranges::find(study.keys, study.plot_key) == study.keys.end())
+    if (!is_in(study.keys, study.plot_key))
         fail_at(node->place,
                 "plot: '" + study.plot_key + "' is none of the keys that vary" + suggestion(study.plot_key, study.keys));
-    const auto key = static_cast<std::size_t>(std::ranges::find(study.keys, study.plot_key) - study.keys.begin());
-    if (!std::ranges::all_of(study.runs, [&](const auto& run) { return is_number(run[key]); }))
-        fail_at(node->place, "plot: not all values of '" + study.plot_key + "' are numbers");
-    if (std::ranges::find(measures, study.plot_measure) == measures.end())
+    if (!is_in(numeric, study.plot_key)) fail_at(node->place, "plot: not all values of '" + study.plot_key + "' are numbers");
+    if (!is_in(measures, study.plot_measure))
         fail_at(node->place, "plot: no measure '" + study.plot_measure + "'" + suggestion(study.plot_measure, measures));
 }
 
 /// Throws the error of the first run whose scene is refused.
 void check_runs(const Study& study, const TomlNode& vary) {
-    for (std::size_t run = 0; run < study.runs.size(); ++run) {
-        try {
-            load_scene(study.scene, overrides_of(study, run));
-        } catch (const SceneError& error) {
-            fail_at(vary.place, "run " + std::to_string(run) + " of " + std::to_string(study.runs.size()) + ": " + error.what());
-        }
-    }
+    const std::string count = " of " + std::to_string(study.runs.size()) + ": ";
+    for (std::size_t run = 0; run < study.runs.size(); ++run)
+        at_place(vary.place, "run " + std::to_string(run) + count, [&] { load_scene(study.scene, overrides_of(study, run)); });
 }
 
 }  // namespace
 
+bool is_random_form(const std::string& form) { return is_in(random_forms, form); }
+bool is_log_form(const std::string& form) { return form.starts_with("log"); }
+
+bool is_number(const std::string& value) {
+    char* end = nullptr;
+    std::strtod(value.c_str(), &end);
+    return !value.empty() && *end == '\0';
+}
+
+std::string shown_value(const std::string& value) { return value.starts_with('"') ? parse_toml_value(value, {}).text : value; }
+
+bool is_study_file(const std::string& file) {
+    const TomlNode document = parse_toml(read_text(file), file);
+    return document.find("scene") != nullptr || document.find("vary") != nullptr;
+}
+
 Study read_study(const std::string& file) {
     const TomlNode document = parse_toml(read_text(file), file);
-    for (const TomlNode& node : document.entries)
-        if (std::ranges::find(study_keys, node.key) == study_keys.end()) fail_unknown(node, "a study", study_keys);
+    check_known(document, "a study", study_keys);
     const std::string scene = text_at(document, "scene");
     if (scene.empty()) throw SceneError(file + ": a study needs scene = \"FILE\", the scene that it varies");
-    Study study{.file = file, .scene = (std::filesystem::path(file).parent_path() / scene).string(), .keys = {}, .runs = {}};
+    Study study{
+        .file = file, .scene = (std::filesystem::path(file).parent_path() / scene).string(), .keys = {}, .forms = {}, .runs = {}};
     if (document.find("frames") != nullptr) study.frames = text_at(document, "frames");
     const TomlNode* vary = document.find("vary");
     if (vary == nullptr || vary->kind != TomlKind::table || vary->entries.empty())
@@ -191,7 +203,7 @@ Study read_study(const std::string& file) {
     std::vector<Variation> variations;
     for (const TomlNode& node : vary->entries) {
         study.keys.push_back(node.key);
-        variations.push_back(variation_of(node));
+        study.forms.push_back(variations.emplace_back(variation_of(node)).form);
     }
     const TomlNode *draws = document.find("draws"), *first = document.find("seed");
     const bool random = std::ranges::any_of(variations, [](const Variation& variation) { return bool(variation.draw); });
@@ -216,6 +228,7 @@ std::string study_text(const Study& study) {
                                {"frames", study.frames},
                                {"plot", {study.plot_key, study.plot_measure}},
                                {"keys", study.keys},
+                               {"forms", study.forms},
                                {"runs", study.runs},
                                {"settings", ordered_json::parse(settings_text(load_scene(study.scene)))}};
     return json.dump(1) + "\n";
@@ -231,9 +244,10 @@ Study stored_study(const std::string& file) {
                     .plot_key = json.at("plot").at(0),
                     .plot_measure = json.at("plot").at(1),
                     .keys = json.at("keys"),
+                    .forms = json.value("forms", std::vector<std::string>(json.at("keys").size(), "list")),  // earlier: none
                     .runs = json.at("runs")};
         const auto whole = [&](const std::vector<std::string>& run) { return run.size() == study.keys.size(); };
-        if (std::ranges::all_of(study.runs, whole)) return study;
+        if (study.forms.size() == study.keys.size() && std::ranges::all_of(study.runs, whole)) return study;
     } catch (const ordered_json::exception&) {
     }
     throw SceneError(file + ": is not what percale sweep has written");

@@ -1,10 +1,10 @@
-#include "scenes/sweep/batch_files.h"
+#include "scenes/study/batch_files.h"
 
 #include <algorithm>
 #include <cstdlib>
 
 #include "tests/scenes/message_of.h"
-#include "tests/scenes/sweep/study_files.h"
+#include "tests/scenes/study/study_files.h"
 #include "tests/support/catch.h"
 
 namespace percale::scenes::test::batch_files_test {
@@ -28,10 +28,10 @@ TEST_CASE("make does the runs that are left, each once") {
     folder.write("a $tudy/Makefile", files.makefile);
     const std::string make = "make -s -j2 -C " + shell_word(runs.path()) + " > " + shell_word(folder.path("log")) + " 2>&1";
     REQUIRE(std::system(make.c_str()) == 0);
-    CHECK(runs.left(study).empty());
+    CHECK(runs_left(runs, study).empty());
     std::filesystem::remove_all(runs.folder_of(1));
     REQUIRE(std::system(make.c_str()) == 0);
-    CHECK(runs.left(study).empty());
+    CHECK(runs_left(runs, study).empty());
 }
 
 TEST_CASE("a Slurm array has at most 1,000 tasks, which do all runs, the last task those that are left") {
