@@ -108,6 +108,9 @@ std::string comparison_csv(const Comparison& comparison) {
     return text;
 }
 
+/// Errors below 1e-15 m are rounding, those of schemes that are exact for a scene may be 0.
+constexpr int lowest_power = -15;
+
 const ComparedRun* cheapest_within(const Comparison& comparison, double largest_error) {
     const double uncertainty = comparison.rank_of(comparison.reference.uncertainty);
     const ComparedRun* cheapest = nullptr;
@@ -120,9 +123,12 @@ const ComparedRun* cheapest_within(const Comparison& comparison, double largest_
 
 std::vector<std::string> advice(const Comparison& comparison) {
     std::vector<std::string> sentences;
-    for (int power = -1; const ComparedRun* best = cheapest_within(comparison, std::pow(10.0, power));) {
+    const auto cheapest = [&](int power) {
+        return power < lowest_power ? nullptr : cheapest_within(comparison, std::pow(10.0, power));
+    };
+    for (int power = -1; const ComparedRun* best = cheapest(power);) {
         const int first = power;
-        while (cheapest_within(comparison, std::pow(10.0, power - 1)) == best) --power;
+        while (cheapest(power - 1) == best) --power;
         const std::string range = decade_text(first) + (power < first ? " to " + decade_text(power) : "");
         sentences.push_back("for an error of " + range + " use " + variant_text(best->variant) + " (" +
                             short_number(best->run.totals.cpu_s, 2) + " CPU s)");

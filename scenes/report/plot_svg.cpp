@@ -22,9 +22,9 @@ constexpr double wanted_ticks = 5.0;
 
 // Pixels. Heights are those of panels that stand one, two or three in a row.
 constexpr double frame_left = 90.0, frame_top = 50.0, frame_width = 760.0, right_margin = 20.0, axis_height = 70.0;
-constexpr double panel_gap = 20.0, heading_height = 22.0, tick_length = 5.0;
+constexpr double panel_gap = 35.0, heading_height = 22.0, tick_length = 5.0;
 constexpr std::array<double, 3> panel_heights = {420.0, 320.0, 230.0};
-constexpr double legend_line = 24.0, legend_text = 36.0, letter_width = 7.5, legend_margin = 8.0;
+constexpr double legend_line = 24.0, legend_text = 36.0, letter_width = 8.2, legend_margin = 8.0;
 
 // Dark enough on white; the first seven can be distinguished with any colour vision (Okabe and Ito 2008), the others by their
 // markers, too.

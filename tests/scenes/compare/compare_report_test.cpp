@@ -62,6 +62,15 @@ TEST_CASE("Advice names a run for every decade once, and none below what the ref
     CHECK(advice(none)[0].find("no run") == 0);
 }
 
+TEST_CASE("The advice on a scheme that is exact for the scene ends at rounding") {
+    Comparison exact = small_comparison();
+    exact.runs.resize(1);
+    exact.runs[0].error = exact.reference.uncertainty = scaled({1.0, 1.0, 1.0, 1.0, 1.0, 1.0}, 0.0);
+    const std::vector<std::string> sentences = advice(exact);
+    REQUIRE(sentences.size() == 1);
+    CHECK(sentences[0].find("for an error of 1e-1 m to 1e-15 m use ") == 0);
+}
+
 TEST_CASE("The table has its columns under each other, and says where the reference resolves nothing") {
     const std::vector<std::string> lines = lines_of(comparison_table(small_comparison()));
     REQUIRE(lines.size() == 6);

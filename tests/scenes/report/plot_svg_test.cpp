@@ -243,7 +243,7 @@ TEST_CASE("Panels stand three in a row with the same axes, texts of ticks at the
     CHECK(count(svg, ">30<") == 2);   // left of each row
     const std::vector<double> x = numbers_in(svg, "cx");
     REQUIRE(x.size() == 9);
-    CHECK((x[0] == 90.0 && x[2] == 350.0 && x[4] == 610.0 && x[6] == 90.0));
+    CHECK((x[0] == 90.0 && x[2] == 355.0 && x[4] == 620.0 && x[6] == 90.0));
 }
 
 TEST_CASE("A map has all cells in their colours, names, labels and a line within each panel, its legend below") {
@@ -261,9 +261,9 @@ TEST_CASE("A map has all cells in their colours, names, labels and a line within
 
 TEST_CASE("Cells of a panel fill it without gaps or overlaps") {
     const std::string svg = plot_svg(map_of_cells());
-    // Two columns of 120 pixels and two rows of 115 in a panel of 240 x 230 whose corner is at (90, 72).
+    // Two columns of 115 pixels and two rows of 115 in a panel of 230 x 230 whose corner is at (90, 72).
     for (const char* place :
-         {"x=\"90.0\" y=\"72.0\" width=\"120.0\" height=\"115.0\"", "x=\"210.0\" y=\"187.0\" width=\"120.0\" height=\"115.0\""})
+         {"x=\"90.0\" y=\"72.0\" width=\"115.0\" height=\"115.0\"", "x=\"205.0\" y=\"187.0\" width=\"115.0\" height=\"115.0\""})
         CHECK(count(svg, place) == 1);
     const PlotAxis axis = axis_of_cells(logarithmic, {1.0, 10.0, 1000.0, 10.0});
     CHECK(axis.step == Approx(1.0));
