@@ -33,7 +33,8 @@ MAY_INCLUDE = {
     'engine': {'public', 'engine', *ENGINE_PARTS},
     'collision': PUBLIC | {'collision'},
     'scenes': PUBLIC | {'scenes'},
-    'tests': PUBLIC | {'engine', *ENGINE_PARTS, 'collision', 'scenes', 'tests'},
+    'generators': PUBLIC | {'scenes', 'generators'},
+    'tests': PUBLIC | {'engine', *ENGINE_PARTS, 'collision', 'scenes', 'generators', 'tests'},
     'outside': PUBLIC | {'outside'},
 }
 # The rooms of scenes/, each of which may include itself and the rooms before it.
@@ -51,7 +52,7 @@ OTHERS = [
     (r'fcl/', ('collision/fcl/', 'tests/collision/')),
     (r'ccd/', ('collision/', 'tests/collision/')),
     (r'bullet/|bt[A-Z]|Bullet|LinearMath/', ('collision/bullet/', 'tests/collision/', 'tests/bench/', 'data/examples/')),
-    (r'assimp/|toml\+\+/|nlohmann/|CLI/|fmt/|spdlog/|tiny_gltf|stb_|pybind11/', ('scenes/', 'tests/scenes/', 'tests/validation/',
+    (r'assimp/|toml\+\+/|nlohmann/|CLI/|fmt/|spdlog/|tiny_gltf|stb_|pybind11/', ('scenes/', 'data/generators/', 'tests/scenes/', 'tests/data/', 'tests/validation/',
                                                                        'tests/properties/', 'tests/misuse/', 'tests/bench/')),
     (r'embree3/|stb/', ('scenes/', 'tests/scenes/')),
     (r'catch2/', ('tests/support/',)),
@@ -170,6 +171,8 @@ def part_of(path):
         return 'public' if parts[0] == 'engine' else 'public_collision'
     if parts[0] == 'engine':
         return parts[1] if parts[1] in ENGINE_PARTS else 'engine'
+    if path.startswith('data/generators/'):
+        return 'generators'
     return parts[0] if parts[0] in ('collision', 'scenes', 'tests') else 'outside'
 
 
@@ -321,7 +324,7 @@ def test_of(path):
 
 def check_mirror(tree):
     known = set(tree.files)
-    for path in tree.code(*LIBRARY):
+    for path in [path for path in tree.code(*LIBRARY, 'data') if part_of(path) != 'outside']:
         test = test_of(path)
         if path.endswith('.cpp') and path not in NO_TEST_FILE and test not in known:
             tree.complain(path, 1, f'no test file ({test})')
@@ -334,7 +337,7 @@ def percentile(values, share):
 def check_functions(tree):
     """Limits for all code, the distribution for the library; gives the lengths of the library's functions."""
     lengths = []
-    for path in tree.code(*LIBRARY, 'tests'):
+    for path in tree.code(*LIBRARY, 'data', 'tests'):
         is_kernel = path.endswith('_kernel.inl')
         try:
             functions = find_functions(tree.text[path])

@@ -18,8 +18,8 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import layers
 
-READ = ('engine/', 'collision/', 'scenes/', 'tests/bench/')
-READ_IF_CHANGED = ('tests/scenes/', 'tests/validation/')
+READ = ('engine/', 'collision/', 'scenes/', 'data/generators/', 'tests/bench/')
+READ_IF_CHANGED = ('tests/scenes/', 'tests/data/', 'tests/validation/')
 MOST = 300  # sources of a change. All users of a header that everything includes take as long as half of the other stages
 
 

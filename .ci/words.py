@@ -1,4 +1,5 @@
 """What layers.py checks of the project's words: the glossary, the size of READMEs, and the paths that they name."""
+import functools
 import re
 from dataclasses import dataclass
 from posixpath import normpath
@@ -82,10 +83,12 @@ PARTS = re.compile(r'[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+')
 COMMENT_START = re.compile(r'//|/\*')
 
 
+@functools.cache
 def parts_of(identifier):
     return '_'.join(part.lower() for part in PARTS.findall(identifier))
 
 
+@functools.cache
 def forbids(word, text):
     """Whether snake_case text holds the word's parts in a row, or its plural."""
     return re.search(rf'(?:^|_){re.escape(word)}s?(?:_|$)', text) is not None
@@ -119,6 +122,7 @@ def words_in_prose(text, words):
             for found in re.finditer(pattern(word), text, re.I)]
 
 
+@functools.cache
 def is_below(path, start):
     """Whether a path begins with another, up to the end of one of its parts or of a file's name."""
     return re.match(rf'{re.escape(start)}(?![a-z0-9])', path) is not None

@@ -8,7 +8,7 @@
 #include "percale/error.h"
 #include "scenes/meshes/mesh_import.h"
 #include "scenes/run/obstacle_motion.h"
-#include "scenes/shapes/spikes.h"
+#include "data/generators/spikes.h"
 #include "tests/support/bench_meshes.h"
 #include "tests/support/collision/shapes.h"
 #include "tests/support/real_meshes.h"

@@ -1,11 +1,11 @@
-#include "shapes/mannequin.h"
+#include "generators/mannequin.h"
 
 #include <cmath>
 
 #include "percale/error.h"
-#include "shapes/mannequin_parts.h"
-#include "shapes/mesh_relax.h"
-#include "shapes/surface_net.h"
+#include "generators/mannequin_parts.h"
+#include "generators/mesh_relax.h"
+#include "generators/surface_net.h"
 
 namespace percale::scenes {
 

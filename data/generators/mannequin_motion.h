@@ -1,6 +1,6 @@
 #pragma once
 
-#include "shapes/mannequin_rig.h"
+#include "generators/mannequin_rig.h"
 
 // How the mannequin moves.
 namespace percale::scenes {

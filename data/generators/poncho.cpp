@@ -1,11 +1,11 @@
-#include "shapes/poncho.h"
+#include "generators/poncho.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "percale/error.h"
-#include "shapes/mesh_relax.h"
+#include "generators/mesh_relax.h"
 
 namespace percale::scenes {
 

@@ -1,4 +1,4 @@
-#include "scenes/shapes/shipped_meshes.h"
+#include "data/generators/shipped_meshes.h"
 
 #include <filesystem>
 #include <fstream>

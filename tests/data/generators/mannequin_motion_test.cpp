@@ -1,9 +1,9 @@
-#include "scenes/shapes/mannequin_motion.h"
+#include "data/generators/mannequin_motion.h"
 
 #include <set>
 
 #include "percale/certify.h"
-#include "scenes/shapes/mannequin.h"
+#include "data/generators/mannequin.h"
 #include "tests/support/catch.h"
 
 namespace percale::scenes::test::mannequin_motion_test {

@@ -1,4 +1,4 @@
-#include "shapes/mesh_relax.h"
+#include "generators/mesh_relax.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "scenes/shapes/funnel.h"
+#include "data/generators/funnel.h"
 
 #include <numbers>
 

@@ -1,4 +1,4 @@
-#include "shapes/funnel.h"
+#include "generators/funnel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "scenes/shapes/mesh_relax.h"
+#include "data/generators/mesh_relax.h"
 
 #include <random>
 

@@ -1,9 +1,9 @@
-#include "shapes/mannequin_rig.h"
+#include "generators/mannequin_rig.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "shapes/mannequin_parts.h"
+#include "generators/mannequin_parts.h"
 
 namespace percale::scenes {
 

@@ -1,11 +1,11 @@
-#include "scenes/shapes/mannequin_rig.h"
+#include "data/generators/mannequin_rig.h"
 
 #include <map>
 #include <random>
 #include <set>
 #include <tuple>
 
-#include "scenes/shapes/mannequin.h"
+#include "data/generators/mannequin.h"
 #include "tests/scenes/mesh_laws.h"
 #include "tests/support/catch.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "shapes/mannequin_rig.h"
+#include "generators/mannequin_rig.h"
 
 // A rigged mesh and how it moves, as a file that other programs read.
 namespace percale::scenes {

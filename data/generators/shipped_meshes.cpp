@@ -1,12 +1,12 @@
-#include "shapes/shipped_meshes.h"
+#include "generators/shipped_meshes.h"
 
 #include <cmath>
 
-#include "shapes/funnel.h"
-#include "shapes/mannequin.h"
-#include "shapes/poncho.h"
-#include "shapes/rigged_glb.h"
-#include "shapes/spikes.h"
+#include "generators/funnel.h"
+#include "generators/mannequin.h"
+#include "generators/poncho.h"
+#include "generators/rigged_glb.h"
+#include "generators/spikes.h"
 
 namespace percale::scenes {
 

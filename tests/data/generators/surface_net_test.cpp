@@ -1,4 +1,4 @@
-#include "scenes/shapes/surface_net.h"
+#include "data/generators/surface_net.h"
 
 #include <cmath>
 

@@ -1,10 +1,10 @@
-#include "scenes/shapes/poncho.h"
+#include "data/generators/poncho.h"
 
 #include <cmath>
 
 #include "percale/certify.h"
 #include "scenes/meshes/mesh_import.h"
-#include "scenes/shapes/mannequin.h"
+#include "data/generators/mannequin.h"
 #include "tests/scenes/mesh_laws.h"
 #include "tests/scenes/message_of.h"
 #include "tests/support/catch.h"

@@ -1,4 +1,4 @@
-#include "scenes/shapes/spikes.h"
+#include "data/generators/spikes.h"
 
 #include "percale/certify.h"
 #include "tests/scenes/mesh_laws.h"

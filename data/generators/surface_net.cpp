@@ -1,4 +1,4 @@
-#include "shapes/surface_net.h"
+#include "generators/surface_net.h"
 
 #include <algorithm>
 #include <cmath>

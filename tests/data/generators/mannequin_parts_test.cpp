@@ -1,4 +1,4 @@
-#include "scenes/shapes/mannequin_parts.h"
+#include "data/generators/mannequin_parts.h"
 
 #include <random>
 

@@ -1,4 +1,4 @@
-#include "scenes/shapes/mannequin.h"
+#include "data/generators/mannequin.h"
 
 #include <random>
 #include <tuple>

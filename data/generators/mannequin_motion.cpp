@@ -1,4 +1,4 @@
-#include "shapes/mannequin_motion.h"
+#include "generators/mannequin_motion.h"
 
 #include <algorithm>
 #include <cmath>

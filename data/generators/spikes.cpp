@@ -1,4 +1,4 @@
-#include "shapes/spikes.h"
+#include "generators/spikes.h"
 
 #include <algorithm>
 #include <string>

@@ -1,13 +1,13 @@
-#include "shapes/rigged_glb.h"
+#include "generators/rigged_glb.h"
 
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
-#include "common/bytes.h"
-#include "common/glb.h"
+#include "scenes/common/bytes.h"
+#include "scenes/common/glb.h"
 #include "percale/error.h"
-#include "shapes/mannequin_motion.h"
+#include "generators/mannequin_motion.h"
 
 namespace percale::scenes {
 

@@ -1,4 +1,4 @@
-#include "scenes/shapes/rigged_glb.h"
+#include "data/generators/rigged_glb.h"
 
 #include <assimp/scene.h>
 
@@ -7,8 +7,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "scenes/shapes/mannequin.h"
-#include "scenes/shapes/mannequin_motion.h"
+#include "data/generators/mannequin.h"
+#include "data/generators/mannequin_motion.h"
 #include "tests/scenes/message_of.h"
 #include "tests/support/catch.h"
 

@@ -1,4 +1,4 @@
-#include "shapes/mannequin_parts.h"
+#include "generators/mannequin_parts.h"
 
 #include <algorithm>
 #include <cmath>
