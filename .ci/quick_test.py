@@ -42,7 +42,7 @@ class Choice(unittest.TestCase):
     def test_the_program_of_a_test(self):
         for path, layer in [('tests/scenes/run/x_test.cpp', 'scenes'), ('tests/properties/x_test.cpp', 'engine'),
                             ('tests/properties/collision/x_test.cpp', 'collision'), ('tests/validation/x_test.cpp', None),
-                            ('tests/properties/allocations/x_test.cpp', None)]:
+                            ('tests/properties/allocations/x_test.cpp', None), ('tests/data/generators/x_test.cpp', 'scenes')]:
             self.assertEqual(quick.layer_of(path), layer, path)
 
 
