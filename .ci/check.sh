@@ -182,7 +182,7 @@ stage_alone() {
     configure build/ci-alone -DCMAKE_CXX_COMPILER=clang++ -DPERCALE_WERROR=ON -DPERCALE_UNITY=OFF -DPERCALE_PYTHON=ON \
         -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
     python3 .ci/read_alone.py "$root" build/ci-alone "$base" >build/ci-alone/commands
-    echo "$(tr -d -c '\0' <build/ci-alone/commands | wc -c) sources are read: ${base:+of those that, or whose headers, changed since }${base:-all}"
+    echo "$(tr -d -c '\0' <build/ci-alone/commands | wc -c) sources are read${base:+, of those that changed since $base or whose headers did}"
     compiling xargs -0 -r -P "$jobs" -n 1 bash -c <build/ci-alone/commands
 }
 

@@ -74,6 +74,8 @@ LONG_FILES = {}
 MOST_FOLDER_FILES = 25
 # Folders that may hold more files of their own, and why.
 LARGE_FOLDERS = {
+    'engine/forces': 'one term a file',
+    'scenes/frames': 'one format a file',
     'scenes/program': 'one file a subcommand, by the name that users type',
     'scenes/python': 'one file a part of the module, by what Python users see of it',
     'tests/fuzz/corpus/*': 'inputs that the fuzzers found and nobody reads',

@@ -61,7 +61,7 @@ GLOSSARY = [
     Word('most_turned', 'curvature condition', CODE, True),
     Word('armijo_share', 'Armijo constant', CODE, True),
     Word('translations', 'rigid-mode correction', ('engine/solve', 'tests/engine/solve'), True),
-    Word('enclosed_block', 'pressure block', CODE, True),
+    Word('enclosed_block', 'outer block', CODE, True),
     Word('filling', 'gas state', ('engine/forces', 'tests/engine/forces')),
     Word('float_vector', 'Vec3 arrays', CODE),
     Word('for_stretche', 'parallel_for_chunks', CODE),

@@ -138,12 +138,12 @@ void report_compliant(StepScene& scene) {
 
 /// Whether nothing moves, and cloth moves so little that deflections stay.
 bool all_rests(const StepScene& scene, const ClothState& cloth) {
-    bool dented = false;
+    bool deflected = false;
     for (const ObstacleState& obstacle : scene.script.obstacles) {
         if (obstacle.moves()) return false;
-        dented = dented || !obstacle.compliance.deflection.empty();
+        deflected = deflected || !obstacle.compliance.deflection.empty();
     }
-    if (!dented) return true;
+    if (!deflected) return true;
     for (int i = 0; i < scene.model.vertex_count(); ++i) {
         if (scene.settings.time_step * cloth.velocities.at(i).norm() > resting_deflection * scene.model.thickness[i])
             return false;

@@ -100,9 +100,9 @@ public:
     /// Whether the scene has this force. Otherwise only its reasons are requested.
     virtual bool acts(const ForceInput& input) const = 0;
 
-    /// forces.total += its forces, N, and with input.with_matrix its part of the matrix -dt^2 Jq - dt Jv, as blocks that every
-    /// solver sees (ForceBlocks), made positive semidefinite except for loads, which are complete. Returns its potential, J: the
-    /// forces are minus its gradient with respect to the positions at the end of dt.
+    /// forces.total += its forces, N, and with input.with_matrix its part of the matrix -dt^2 Jq - dt Jv, as springs
+    /// (SpringTerms) or as blocks (ForceBlocks), both seen by every solver, made positive semidefinite except for loads, which
+    /// are complete. Returns its potential, J: the forces are minus its gradient with respect to the positions at the end of dt.
     virtual double add(const ForceInput& input, Forces& forces) const = 0;
 
     /// The entry of the energies in which its stored energy is counted; null: it stores nothing.

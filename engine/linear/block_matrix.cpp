@@ -204,7 +204,10 @@ void add_force_product(const BlockMatrix& matrix, const Vec3Arrays& x, Vec3Array
         const double along = dot(block, x);
         for (std::size_t k = 0; k < block.vertex.size(); ++k) y.add(block.vertex[k], along * block.gradient[k]);
     }
-    for (const Vec3Arrays& gradient : matrix.wide_outer) add_scaled(y, dot(*matrix.compute, gradient, x), gradient);
+    for (const Vec3Arrays& gradient : matrix.wide_outer) {
+        const double along = dot(*matrix.compute, gradient, x);
+        set_each(*matrix.compute, y, gradient, y, [along](double value, double g) { return value + along * g; });
+    }
     for (const auto& [vertex, first, second] : matrix.of_forces->loads) {
         const Vec3 a = x.at(vertex[0]);
         const Vec3 change = (x.at(vertex[1]) - a).cross(second) + first.cross(x.at(vertex[2]) - a);

@@ -10,21 +10,25 @@ void LowRankUpdate::fill(const BlockMatrix& matrix, Preconditioner of_matrix) {
     const std::vector<Vec3Arrays>& g = matrix.wide_outer;
     const Eigen::Index rank = static_cast<Eigen::Index>(g.size());
     columns_.resize(g.size());
-    Eigen::MatrixXd core = Eigen::MatrixXd::Identity(rank, rank);
+    along_.resize(rank);
+    sums_.setIdentity(rank, rank);
     for (Eigen::Index column = 0; column < rank; ++column) {
         of_matrix_(g[column], columns_[column]);
-        for (Eigen::Index row = 0; row < rank; ++row) core(row, column) += dot(*matrix.compute, g[row], columns_[column]);
+        for (Eigen::Index row = 0; row < rank; ++row) sums_(row, column) += dot(*matrix.compute, g[row], columns_[column]);
     }
-    if (rank > 0) core_.compute(core);
+    updates_ = rank > 0 && core_.compute(sums_).info() == Eigen::Success;
 }
 
-void LowRankUpdate::apply(const Vec3Arrays& r, Vec3Arrays& z) const {
+void LowRankUpdate::apply(const Vec3Arrays& r, Vec3Arrays& z) {
     of_matrix_(r, z);
-    if (columns_.empty()) return;
-    Eigen::VectorXd along(static_cast<Eigen::Index>(columns_.size()));
-    for (std::size_t k = 0; k < columns_.size(); ++k) along[k] = dot(*matrix_->compute, columns_[k], r);
-    core_.solveInPlace(along);
-    for (std::size_t k = 0; k < columns_.size(); ++k) add_scaled(z, -along[k], columns_[k]);
+    if (!updates_) return;
+    const Compute& compute = *matrix_->compute;
+    for (std::size_t k = 0; k < columns_.size(); ++k) along_[k] = dot(compute, columns_[k], r);
+    core_.solveInPlace(along_);
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+        set_each(compute, z, columns_[k], z,
+                 [factor = along_[k]](double value, double column) { return value - factor * column; });
+    }
 }
 
 }  // namespace percale

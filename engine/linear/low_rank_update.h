@@ -15,13 +15,16 @@ class LowRankUpdate {
 public:
     /// Applies P once for each of the blocks; views the matrix.
     void fill(const BlockMatrix& matrix, Preconditioner of_matrix);
-    void apply(const Vec3Arrays& r, Vec3Arrays& z) const;
+    void apply(const Vec3Arrays& r, Vec3Arrays& z);
 
 private:
     const BlockMatrix* matrix_ = nullptr;
     Preconditioner of_matrix_;
+    bool updates_ = false;              // there are such blocks
     std::vector<Vec3Arrays> columns_;   // Z
     Eigen::LLT<Eigen::MatrixXd> core_;  // I + G^T Z
+    Eigen::MatrixXd sums_;              // work space
+    Eigen::VectorXd along_;             // work space
 };
 
 }  // namespace percale

@@ -25,8 +25,8 @@ using FloatVec = std::array<float, 3>;
 /// Coarser diagonals keep S K of all constraints: without it layers move far apart, and stiff constraints need more iterations.
 ///
 /// Local outer blocks are exact on the finest level, too. Coarser levels take one of n vertices that resists no translation, u =
-/// sum g_k . x_k, as springs on the m edges among them: u = sum h . (x_k - x_l) with h = (g_k - g_l)/n, and u^2 <= m sum (h .
-/// (x_k - x_l))^2, which is too stiff by m at most.
+/// sum g_k . x_k, as springs on the m pairs of them: u = sum h . (x_k - x_l) with h = (g_k - g_l)/n, and u^2 <= m sum (h .
+/// (x_k - x_l))^2, which is too stiff by m at most. Pairs that no spring joins are left out.
 class Multigrid {
 public:
     /// The springs of `pattern` in rest positions (m, one per vertex). All arguments are viewed.

@@ -53,7 +53,7 @@ struct StagePoint {
 
 /// Forces without contact and their diagonal blocks at the first evaluation of a stage, by which contact sets its stiffness.
 struct FrozenForces {
-    DiagonalBlocks diagonal;  // kg; empty until then
+    DiagonalBlocks diagonal;  // kg
     AlignedVector<float> inverse;
     Vec3Arrays load;  // N
 };

@@ -1,7 +1,6 @@
 #include "compare/compare.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/scene_file_error.h"
 #include "percale/error.h"

@@ -17,7 +17,7 @@ Finding density_warning(const Scene& scene, const std::string& name, double dens
                    "fabric '" + name + "': area_density " + short_number(density) + " kg/m^2 is too " +
                        (heavy ? "heavy" : "light") + " for cloth (" + short_number(lightest_cloth) + " ... " +
                        short_number(heaviest_cloth) + ")",
-                   "was " + short_number(heavy ? density / 1000.0 : 1000.0 * density) + " kg/m^2 meant?");
+                   "set " + short_number(heavy ? density / 1000.0 : 1000.0 * density) + " kg/m^2, if that was meant");
 }
 
 bool in_one_place(const TriangleMesh& a, const TriangleMesh& b, double thickness) {

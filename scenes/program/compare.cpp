@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "common/text.h"
 #include "compare/compare_report.h"
-#include "percale/error.h"
 #include "program/study.h"
 
 namespace percale::program {

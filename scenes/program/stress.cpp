@@ -1,8 +1,6 @@
 #include "stress/stress.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <optional>
 
 #include "common/text.h"
 #include "percale/error.h"

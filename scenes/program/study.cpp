@@ -90,7 +90,10 @@ void add_study_options(CLI::App& command, StudyOptions& options, const std::vect
         command.add_flag("--slurm", options.slurm, "Submit the runs as a Slurm job array instead of doing them here");
     if (holds(takes, "--collect")) command.add_flag("--collect", options.collect, "Only gather the tables of what is done");
     if (holds(takes, "--set")) add_scene_options(command, options.common);
-    command.add_option("-o", options.folder, "Output folder (default: the file's name; stress, stress_cell_N)")->type_name("DIR");
+    command
+        .add_option("-o", options.folder,
+                    "Output folder (default: the file's name; of stress without a file stress or stress_cell_N)")
+        ->type_name("DIR");
     command.add_flag("--quiet", options.common.quiet, "Print nothing but errors");
 }
 
@@ -99,11 +102,11 @@ const Preset& preset_of(const StudyOptions& options) {
     if (options.preset.empty()) {
         if (options.file.empty()) throw SceneError("FILE: is needed; --preset stress alone has a study of its own");
         if (std::filesystem::is_directory(options.file) || is_study_file(options.file)) return presets.back();
-        throw SceneError(options.file + ": is no study; of a scene there are --preset compare and --preset stress");
+        throw SceneError(options.file + ": is not a study file; for a scene use --preset compare or --preset stress");
     }
     const auto found = std::ranges::find(presets, options.preset, &Preset::name);
     if (found == presets.end())
-        throw SceneError("--preset " + options.preset + ": there is none" +
+        throw SceneError("--preset " + options.preset + ": no such preset" +
                          suggestion(options.preset, std::vector<std::string>{"compare", "stress", "sweep"}));
     if (found->needs_file && options.file.empty()) throw SceneError("FILE: is needed by --preset " + options.preset);
     return *found;
@@ -116,7 +119,8 @@ void check_taken(const CLI::App& command, const Preset& preset) {
     for (const CLI::Option* option : command.get_options())
         for (const std::string& name : option->get_lnames())
             if (option->count() > 0 && !holds(takes, "--" + name))
-                throw SceneError("--" + name + ": --preset " + preset.name + " takes none; it takes " + joined(preset.takes));
+                throw SceneError("--" + name + ": --preset " + preset.name + " does not take this option; it takes " +
+                                 joined(preset.takes));
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ int submit(const StudyOptions& options, const OpenStudy& open) {
 
 void print_failures(const OpenStudy& open, const std::vector<std::size_t>& failed) {
     if (failed.empty()) return;
-    std::string text = counted(static_cast<long>(failed.size()), "run") + " came to no end; the same command does them again:\n";
+    std::string text = counted(static_cast<long>(failed.size()), "run") + " did not finish; the same command does them again:\n";
     for (std::size_t i = 0; i < std::min(failed.size(), reported_runs); ++i)
         text += "  " + open.folder.folder_of(failed[i]) + ": " + open.folder.complaint_of(failed[i]) + "\n";
     if (failed.size() > reported_runs) text += "  and " + std::to_string(failed.size() - reported_runs) + " more\n";

@@ -19,7 +19,6 @@
 #include "python/values.h"
 #include "run/run_verdict.h"
 #include "run/scene_plan.h"
-#include "run/start_fault.h"
 
 namespace percale::python {
 namespace {

@@ -321,7 +321,9 @@ PlotAxis axis_around(AxisScale scale, const std::vector<double>& values) {
     if (values.empty()) return axis;
     const auto [min, max] = std::minmax_element(values.begin(), values.end());
     const double low = is_logarithmic(scale) ? std::log10(*min) : *min, high = is_logarithmic(scale) ? std::log10(*max) : *max;
-    const double range = high > low ? high - low : std::max(1e-3, std::abs(low));  // a single value has a range of its size
+    // A single value, and values that differ by rounding, have a range of their size.
+    const bool differ = high - low > axis_rounding * std::max(std::abs(low), std::abs(high));
+    const double range = differ ? high - low : std::max(1e-3, std::abs(low));
     axis.step = is_logarithmic(scale) ? 1.0 : round_step(range / wanted_ticks);
     axis.first = axis.step * std::floor(low / axis.step + axis_rounding);
     axis.last = std::max(axis.step * std::ceil(high / axis.step - axis_rounding), axis.first + axis.step);

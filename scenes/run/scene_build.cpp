@@ -343,9 +343,10 @@ std::vector<Finding> tight_warnings(const BuiltScene& built, const std::string& 
         const ClothSpec& cloth = built.scene.cloths[k];
         const bool held = has_pins(cloth) || built.scene.pins_have_events(cloth) || built.scene.is_filled(cloth);
         if (held || cloth.grid || strain < tight_strain || strain > torn_strain) continue;
-        warnings.push_back(finding("tight", cloth.place,
-                                   "'" + cloth.name + "' is stretched by " + percent_text(strain) +
-                                       " at its tightest: it may be too small for the body (" + scale + " makes it larger)"));
+        warnings.push_back(finding(
+            "tight", cloth.place,
+            "'" + cloth.name + "' is stretched by " + percent_text(strain) + " at its tightest: it may be too small for the body",
+            scale + " makes it larger"));
     }
     return warnings;
 }

@@ -95,10 +95,11 @@ std::vector<Finding> plan_findings(const BuiltScene& built, const ScenePlan& pla
 
 std::vector<Finding> start_findings(const BuiltScene& built) {
     std::vector<Finding> found;
+    const std::string_view when = built.seams.empty() ? "before the start" : "before the start or when the seams had closed";
     for (const StartMove& move : built.simulation.start_repair()) {
         const ClothSpec& cloth = built.scene.cloths[static_cast<std::size_t>(move.cloth)];
         const bool far = move.largest_move > far_start_move * built.scene.fabrics.at(cloth.fabric).thickness;
-        found.push_back(finding("start_moved", cloth.place, start_move_text(move),
+        found.push_back(finding("start_moved", cloth.place, start_move_text(move, when),
                                 "move it there by pose.translation, enlarge it by pose.scale if it is too small for what it is "
                                 "around, or set step.start = \"refuse\" to have it refused",
                                 far ? Severity::warning : Severity::note));

@@ -82,6 +82,7 @@ StressRow run_scene_cell(const SceneSource& source, const StressCell& cell, int 
     scene.duration = scene.latest_end();  // every scheme makes as many steps
     scene.until_rest = false;
     scene.step.measure = StepMeasures::ledger;
+    if (scene.step.threads == 0) scene.step.threads = 1;  // jobs use the cores
     for (auto& [name, fabric] : scene.fabrics) scale(fabric, cell.stiffness);
     StressFigures figures;
     const std::string why = use_steps(std::move(scene), [&](BuiltScene& built) { figures = figures_of(cell, built, steps); });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -30,10 +31,15 @@ bool run_variants(std::size_t count, const VariantWork& work, const std::functio
             }
         }
     };
-    std::vector<std::thread> threads;
-    for (std::size_t job = 1; job < std::min(static_cast<std::size_t>(work.jobs), count); ++job) threads.emplace_back(act);
-    act();
-    for (std::thread& thread : threads) thread.join();
+    {
+        std::vector<std::jthread> threads;
+        try {
+            for (std::size_t job = 1; job < std::min(static_cast<std::size_t>(work.jobs), count); ++job)
+                threads.emplace_back(act);
+        } catch (const std::system_error&) {  // the system gives no more: those that there are do all
+        }
+        act();
+    }
     if (fault) std::rethrow_exception(fault);
     return next >= count;
 }

@@ -51,12 +51,14 @@ pid_t start(std::vector<std::string>& words, const std::string& log) {
 WorkerEnd run_worker(std::vector<std::string> words, const std::string& log, const std::function<bool()>& stop_asked) {
     const pid_t child = start(words, log);
     int status = 0;
-    for (bool stopping = false; waitpid(child, &status, WNOHANG) != child;) {
+    for (bool stopping = false;;) {
+        const pid_t ended = waitpid(child, &status, WNOHANG);
+        if (ended == child || (ended < 0 && errno != EINTR)) break;
         if (!stopping && stop_asked && stop_asked()) {
             stopping = true;
             kill(child, SIGTERM);
         }
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     std::error_code error;
     if (std::filesystem::file_size(log, error) == 0 && !error) std::filesystem::remove(log, error);

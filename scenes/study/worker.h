@@ -13,8 +13,9 @@ struct WorkerEnd {
 };
 
 /// Runs a program, words[0], as a process of its own and waits for its end, so that what goes wrong in it, or kills it, leaves
-/// the caller alone. What it prints becomes the file `log`, which is removed where that is empty. It dies with the thread that
-/// calls. Once `stop_asked` (which may be empty) is true it is asked to stop. Throws SceneError where it cannot be started.
+/// the caller alone. What it prints becomes the file `log`, which is removed where that is empty. The process is killed when
+/// the calling thread ends. Once `stop_asked` (which may be empty) is true it is asked to stop. Throws SceneError where it cannot
+/// be started.
 WorkerEnd run_worker(std::vector<std::string> words, const std::string& log, const std::function<bool()>& stop_asked);
 
 }  // namespace percale::scenes

@@ -51,7 +51,7 @@ TEST_CASE("a garment that is stretched by a quarter and more is said to be tight
     CHECK(find(verdict(0.2), "tight").empty());
     const std::string tight = find(verdict(0.3), "tight");
     CHECK(tight.starts_with("warning: 'ring' is stretched by "));
-    CHECK(tight.ends_with(": it may be too small for the body (--scale makes it larger)"));
+    CHECK(tight.ends_with(": it may be too small for the body; --scale makes it larger"));
     const DrapeVerdict torn = verdict(1.5);
     CHECK(find(torn, "tight").empty());
     CHECK(torn.findings.at(1).kind == "torn");

@@ -374,7 +374,7 @@ TEST_CASE("a run that finishes with a tight garment says so, and cloth that is p
     CHECK(warnings(mesh, body)[0].kind == "tight");
     CHECK(warnings(mesh, body)[0].place.ends_with("t.toml:4:1"));
     CHECK(finding_text(warnings(mesh, body)[0]) ==
-          "'a' is stretched by 30 % at its tightest: it may be too small for the body (pose.scale makes it larger)");
+          "'a' is stretched by 30 % at its tightest: it may be too small for the body; pose.scale makes it larger");
     CHECK(warnings(mesh, body, false).empty());
     CHECK(warnings(mesh + "\npin = [0]", body).empty());
     CHECK(warnings(grid, body).empty());

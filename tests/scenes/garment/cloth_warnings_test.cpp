@@ -22,14 +22,15 @@ TEST_CASE("an area density that no cloth has is warned of, with the one that may
     CHECK(warnings_of("area_density = 0.15").empty());
     const auto heavy = warnings_of("area_density = 150.0"), light = warnings_of("area_density = 0.00015");
     REQUIRE(heavy.size() == 1);
-    CHECK(finding_line(heavy[0]) ==
-          "warning: fabric 'f': area_density 150 kg/m^2 is too heavy for cloth (0.005 ... 15); was 0.15 kg/m^2 meant?");
+    CHECK(
+        finding_line(heavy[0]) ==
+        "warning: fabric 'f': area_density 150 kg/m^2 is too heavy for cloth (0.005 ... 15); set 0.15 kg/m^2, if that was meant");
     REQUIRE(light.size() == 1);
     CHECK(light[0].what == "fabric 'f': area_density 0.00015 kg/m^2 is too light for cloth (0.005 ... 15)");
     for (const Finding& finding : {heavy[0], light[0]}) {
         CHECK(finding.kind == "area_density");
         CHECK(finding.place == "t");
-        CHECK(finding.fix == "was 0.15 kg/m^2 meant?");
+        CHECK(finding.fix == "set 0.15 kg/m^2, if that was meant");
     }
 }
 

@@ -54,15 +54,14 @@ TEST_CASE("study with a preset does what the command of its name does") {
 
 TEST_CASE("study refuses what has no preset, and options that the preset does not take") {
     const TestFolder folder;
-    CHECK(
-        refused(program(folder, {"study", "sheet.toml"}), "sheet.toml: is no study; of a scene there are --preset compare and"));
+    CHECK(refused(program(folder, {"study", "sheet.toml"}), "sheet.toml: is not a study file; for a scene use --preset compare"));
     CHECK(refused(program(folder, {"study", "absent.toml"}), "absent.toml"));
     CHECK(refused(program(folder, {"study"}), "FILE: is needed"));
     CHECK(refused(program(folder, {"study", "--preset", "compare"}), "FILE: is needed by --preset compare"));
     CHECK(refused(program(folder, {"study", "sheet.toml", "--preset", "stres"}), "did you mean 'stress'?"));
     CHECK(refused(program(folder, {"study", "sheet.toml", "--preset", "compare", "--slurm"}),
-                  "--slurm: --preset compare takes none"));
-    CHECK(refused(program(folder, {"study", "study.toml", "--schemes", "rk4"}), "--schemes: --preset sweep takes none"));
+                  "--slurm: --preset compare does not take this option"));
+    CHECK(refused(program(folder, {"study", "study.toml", "--schemes", "rk4"}), "--schemes: --preset sweep does not take"));
     CHECK(refused(program(folder, {"study", "sheet.toml", "--preset", "sweep"}), "unknown key 'duration' in a study"));
     CHECK(refused(program(folder, {"study", "--preset", "stress", "--jobs", "0"}), "1 ... 1024"));
     CHECK(folder.file_count() == 2);
