@@ -71,7 +71,7 @@ TEST_CASE("asked to stop, no other run is begun and those that run are left for 
     const TestFolder folder;
     const Study study = read_study(write_study(folder, "\"duration\" = [500.0, 501.0, 502.0]\n"));
     int asked = 0;
-    const Worked worked = work_on(folder, study, PERCALE_PROGRAM, 1, [&] { return ++asked > 200; });
+    const Worked worked = work_on(folder, study, PERCALE_PROGRAM, 1, [&] { return ++asked > 20; });
     CHECK(worked.ends.size() == 1);
     CHECK(worked.left.size() == 3);
 }
