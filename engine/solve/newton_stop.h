@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 
+#include "linear/energy_error_estimate.h"
 #include "stage_equations.h"
 
 namespace percale {
