@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/bounds.h"
 #include "common/scene_file_error.h"
 #include "percale/error.h"
 #include "tolerances.h"
@@ -48,15 +49,6 @@ std::vector<Variant> all_variants(const SceneSource& source, const CompareSettin
     return variants;
 }
 
-double extent_of(const EndState& end) {
-    Vec3 lowest = end.positions.front(), highest = lowest;
-    for (const Vec3& x : end.positions) {
-        lowest = lowest.cwiseMin(x);
-        highest = highest.cwiseMax(x);
-    }
-    return (highest - lowest).norm();
-}
-
 ComparedRun judged(const Variant& variant, VariantRun run, const Comparison& comparison) {
     const Reference& reference = comparison.reference;
     ComparedRun compared{variant, std::move(run), {}};
@@ -89,7 +81,7 @@ Comparison compare_scene(const SceneSource& source, const CompareSettings& setti
                           .duration = scene.duration,
                           .reference = make_reference(source, settings.reference_error, hooks.stop_asked),
                           .runs = {}};
-    comparison.extent = extent_of(comparison.reference.state);
+    comparison.extent = Bounds(comparison.reference.state.positions).extent().norm();
     if (hooks.reference_made) hooks.reference_made(comparison.reference);
     const std::vector<Variant> variants = all_variants(source, settings, hooks);
     comparison.runs.resize(variants.size());

@@ -105,9 +105,11 @@ const Preset& preset_of(const StudyOptions& options) {
         throw SceneError(options.file + ": is not a study file; for a scene use --preset compare or --preset stress");
     }
     const auto found = std::ranges::find(presets, options.preset, &Preset::name);
-    if (found == presets.end())
-        throw SceneError("--preset " + options.preset + ": no such preset" +
-                         suggestion(options.preset, std::vector<std::string>{"compare", "stress", "sweep"}));
+    if (found == presets.end()) {
+        std::vector<std::string> names;
+        for (const Preset& preset : presets) names.emplace_back(preset.name);
+        throw SceneError("--preset " + options.preset + ": no such preset" + suggestion(options.preset, names));
+    }
     if (found->needs_file && options.file.empty()) throw SceneError("FILE: is needed by --preset " + options.preset);
     return *found;
 }
@@ -161,8 +163,7 @@ void add_study_commands(CLI::App& program, Action& action) {
     CLI::App* command = program.add_subcommand("study", "Run variants of a scene: the presets compare, stress and sweep");
     command->footer(
         "Without --preset a study file, or the folder of a study, is a sweep. Each preset takes the options of the command of "
-        "its "
-        "name.\nExamples: percale study study.toml --jobs 8\n          percale study data/scenes/hang.toml --preset compare");
+        "its name.\nExamples: percale study study.toml --jobs 8\n          percale study data/scenes/hang.toml --preset compare");
     command->add_option("FILE", options->file, "Study file, its folder, or with --preset compare or stress a scene file");
     command->add_option("--preset", options->preset, "compare, stress or sweep")->type_name("NAME");
     add_study_options(*command, *options, all);

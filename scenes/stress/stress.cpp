@@ -75,14 +75,14 @@ StressFigures figures_of(const StressCell& cell, BuiltScene& built, int steps) {
     return std::move(watch.figures);
 }
 
-StressRow run_scene_cell(const SceneSource& source, const StressCell& cell, int steps) {
+StressRow run_scene_cell(const SceneSource& source, const StressCell& cell, int steps, bool alone) {
     const std::vector<Override> overrides{{"step.scheme", scheme_words()[static_cast<std::size_t>(cell.scheme)], "--schemes"},
                                           {"step.time_step", number_text(cell.time_step), "--steps"}};
     Scene scene = source(overrides);
     scene.duration = scene.latest_end();  // every scheme makes as many steps
     scene.until_rest = false;
     scene.step.measure = StepMeasures::ledger;
-    if (scene.step.threads == 0) scene.step.threads = 1;  // jobs use the cores
+    if (!alone && scene.step.threads == 0) scene.step.threads = 1;  // the jobs use the cores
     for (auto& [name, fabric] : scene.fabrics) scale(fabric, cell.stiffness);
     StressFigures figures;
     const std::string why = use_steps(std::move(scene), [&](BuiltScene& built) { figures = figures_of(cell, built, steps); });
@@ -146,7 +146,7 @@ StressRun stress_scene(const SceneSource& source, const SceneStress& settings, c
     const Scene scene = source({});
     refuse_gravity_events(scene);
     return with_rows({.title = scene.title, .of_scene = true, .steps = settings.steps, .rows = {}}, scene_cells(settings), work,
-                     [&](const StressCell& cell) { return run_scene_cell(source, cell, settings.steps); });
+                     [&](const StressCell& cell) { return run_scene_cell(source, cell, settings.steps, work.jobs == 1); });
 }
 
 }  // namespace percale::scenes

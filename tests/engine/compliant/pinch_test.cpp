@@ -3,11 +3,12 @@
 #include <cmath>
 
 #include "tests/support/catch.h"
+#include "tests/support/contact_rows.h"
 
 namespace percale::test::pinch_test {
 namespace {
 
-constexpr double h = 0.005;
+constexpr double h = 0.005;  // m, that of add_constraint
 
 /// A script of two obstacles, and constraints of cloth between them.
 struct Between {
@@ -31,13 +32,10 @@ struct Between {
 private:
     void add(std::array<int, 4> vertex, std::array<double, 4> weight, int obstacle, const Vec3& direction, double distance,
              const Vec3& displacement) {
-        constraints.vertex.push_back(vertex);
-        constraints.weight.push_back(weight);
-        constraints.direction.push_back(direction);
-        constraints.obstacle_displacement.push_back(displacement);
-        constraints.distance.push_back(distance);
-        constraints.thickness.push_back(h);
-        constraints.obstacle.push_back(obstacle);
+        add_constraint(vertex, weight, obstacle, constraints);
+        constraints.direction.back() = direction;
+        constraints.obstacle_displacement.back() = displacement;
+        constraints.distance.back() = distance;
     }
 };
 
