@@ -2,9 +2,9 @@
 #include <exception>
 #include <filesystem>
 
+#include "generators/shipped_meshes.h"
 #include "scenes/common/whole_file.h"
 #include "scenes/meshes/obj_file.h"
-#include "generators/shipped_meshes.h"
 
 /// percale_make_data OUTDIR: writes the meshes of data/meshes. Exit code 0, or 2 with one message.
 int main(int count, char** arguments) {

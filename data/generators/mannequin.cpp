@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "percale/error.h"
 #include "generators/mannequin_parts.h"
 #include "generators/mesh_relax.h"
 #include "generators/surface_net.h"
+#include "percale/error.h"
 
 namespace percale::scenes {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "percale/error.h"
 #include "generators/mesh_relax.h"
+#include "percale/error.h"
 
 namespace percale::scenes {
 

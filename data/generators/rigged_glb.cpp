@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
+#include "generators/mannequin_motion.h"
+#include "percale/error.h"
 #include "scenes/common/bytes.h"
 #include "scenes/common/glb.h"
-#include "percale/error.h"
-#include "generators/mannequin_motion.h"
 
 namespace percale::scenes {
 

@@ -15,12 +15,12 @@
 #include <string>
 #include <vector>
 
+#include "data/generators/mannequin.h"
+#include "data/generators/poncho.h"
 #include "percale/detectors.h"
 #include "percale/simulation.h"
 #include "scenes/common/whole_file.h"
 #include "scenes/report/plot_svg.h"
-#include "data/generators/mannequin.h"
-#include "data/generators/poncho.h"
 #include "tests/bench/bench_report.h"
 #include "tests/bench/bench_scenes.h"
 #include "tests/support/bench_unit.h"

@@ -2,8 +2,8 @@
 
 #include <set>
 
-#include "percale/certify.h"
 #include "data/generators/mannequin.h"
+#include "percale/certify.h"
 #include "tests/support/catch.h"
 
 namespace percale::scenes::test::mannequin_motion_test {

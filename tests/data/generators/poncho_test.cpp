@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "data/generators/mannequin.h"
 #include "percale/certify.h"
 #include "scenes/meshes/mesh_import.h"
-#include "data/generators/mannequin.h"
 #include "tests/scenes/mesh_laws.h"
 #include "tests/scenes/message_of.h"
 #include "tests/support/catch.h"

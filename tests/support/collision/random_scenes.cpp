@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <optional>
 
+#include "data/generators/spikes.h"
 #include "percale/error.h"
 #include "scenes/meshes/mesh_import.h"
 #include "scenes/run/obstacle_motion.h"
-#include "data/generators/spikes.h"
 #include "tests/support/bench_meshes.h"
 #include "tests/support/collision/shapes.h"
 #include "tests/support/real_meshes.h"
