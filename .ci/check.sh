@@ -5,7 +5,7 @@
 # Each compiler builds what it tests once, in batches: g++ all, as the README says; clang++ engine, collision, their tests, the program and
 # the fuzz targets, under sanitizers.
 # That no source leans on its batch is seen by alone, which reads what changed, and by one_by_one, which builds everything.
-# A stage says how long it compiled (within cmake) and ran, and what was dearest. Builds are kept under build/ci-*.
+# A stage says how long it compiled (within cmake) and ran, and what took longest. Builds are kept under build/ci-*.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
@@ -36,19 +36,19 @@ compiled() {
     awk '{ sum += $2 - $1 } END { printf "%d", sum }' "$waited"
 }
 
-# dearest TITLE: the ten greatest of the lines SECONDS NAME on standard input, on one line.
-dearest() {
+# slowest TITLE: the ten greatest of the lines SECONDS NAME on standard input, on one line.
+slowest() {
     sort -rn | awk -v title="$1" 'NR <= 10 { seconds = $1; $1 = ""; text = text sprintf("%s%s %.0f", NR > 1 ? "," : "", $0, seconds) }
         END { if (NR > 0) print "   " title ":" text }'
 }
 
-# tell_dearest: of the stage that ran since the file of times was emptied; not what CMake tries out.
-tell_dearest() {
+# report_slowest: of the stage that ran since the file of times was emptied; not what CMake tries out.
+report_slowest() {
     grep -v -E 'CMakeScratch|/Modules/|CompilerId' "$PERCALE_COMPILE_TIMES" | sed -E "s|^([0-9.]+) ([0-9.]+) .*/([^/]+/[^/]+/[^/]+)$|\\1 \\2 \\3|" | sed 's|CMakeFiles/||; s|\.dir/Unity||' |
-        awk '{ seconds = $1 + $2; $1 = $2 = ""; print seconds, $0 }' | dearest "dearest to compile, CPU s"
-    # ctest's own file: name, runs, seconds.
-    find build/ci-* -path build/ci-faults -prune -o -name CTestCostData.txt -exec awk '/^---/ { exit } { s = $NF; $NF = $(NF - 1) = ""; print s, $0 }' {} \; |
-        dearest "dearest to run, s"
+        awk '{ seconds = $1 + $2; $1 = $2 = ""; print seconds, $0 }' | slowest "slowest to compile, CPU s"
+    # ctest's own file: name, runs, seconds; without a run, as of a test that failed, the last is a property instead.
+    find build/ci-* -path build/ci-faults -prune -o -name CTestCostData.txt -exec awk '/^---/ { exit } $(NF - 1) > 0 { s = $NF; $NF = $(NF - 1) = ""; print s, $0 }' {} \; |
+        slowest "slowest to run, s"
 }
 
 # Files that git tracks or would track; without git or a repository all but builds. NUL-separated.
@@ -118,7 +118,6 @@ stage_release() {
         (
             cd "$release_copy"
             export CXX=g++ CXXFLAGS="-Werror --param=ggc-min-heapsize=1048576"   # KB: garbage is collected later, a tenth less time
-            sudo() { "$@"; }
             apt-get() { echo "(skipped: apt-get $1)"; }
             set -e
             # shellcheck source=/dev/null
@@ -161,13 +160,14 @@ stage_engine_only() {
     ctest --test-dir build/ci-engine-only/consumer --no-tests=error
 }
 
-# The newest commit that what is here does not count as changed from: PERCALE_BASE, if there is such a commit; else that of the default
-# branch; on that branch itself the last one that is a day older than the newest. Nothing where there is no such history.
+# The commit from which changes are counted: PERCALE_BASE, if there is such a commit; else where the default branch was left; on that
+# branch itself the last one that is a day older than the newest. Nothing where there is no such history.
 changes_since() {
     local base
     if [ -n "${PERCALE_BASE:-}" ] && git rev-parse -q --verify "$PERCALE_BASE^{commit}" >/dev/null 2>&1; then echo "$PERCALE_BASE"; return; fi
     git rev-parse -q --verify HEAD >/dev/null 2>&1 || return 0
-    base=$(git merge-base HEAD refs/remotes/origin/HEAD 2>/dev/null || git merge-base HEAD refs/remotes/origin/main 2>/dev/null || true)
+    base=$(git merge-base HEAD refs/remotes/origin/HEAD 2>/dev/null || git merge-base HEAD refs/remotes/origin/main 2>/dev/null ||
+        git merge-base HEAD refs/heads/main 2>/dev/null || true)
     if [ -z "$base" ] || [ "$base" = "$(git rev-parse HEAD)" ]; then
         base=$(git rev-list -1 --before="$(($(git log -1 --format=%ct) - 86400))" HEAD)
     fi
@@ -222,7 +222,7 @@ run_files() {
     for layer in "$@"; do programs+=("$build/percale_${layer}_tests"); done
     wanted=$(known_cases "~[law]~[slow]~[.]$(printf '~[#%s]' "${whole_runs[@]}")" "${programs[@]}")
     ran=$(passed_cases "$build"/cases/*.log)
-    dearest "dearest to run, s" <"$build/cases/times"
+    slowest "slowest to run, s" <"$build/cases/times"
     echo "$ran of $wanted cases passed"
     [ "$wanted" -gt 0 ] && [ "$ran" -eq "$wanted" ]
 }
@@ -247,7 +247,7 @@ begin_scenes() {
     printf '%s\n' "${begun_scenes[@]}" | xargs -P "$3" -n 1 bash -c 'begin_scene "$0" "$1" "$2"' "$1" "$2"
 }
 
-# Without whole runs, laws and cases tagged [slow] (seconds in a release build), which go the ways of unit tests many times over.
+# Without whole runs, laws and cases tagged [slow] (seconds in a release build), which repeat what unit tests reach.
 stage_sanitizers() {
     build_sanitizers percale_engine_tests percale_collision_tests percale fuzz
     run_files build/ci-sanitizers engine collision
@@ -270,7 +270,7 @@ stage_races() {
     begin_scenes build/ci-races 4 1
 }
 
-# fuzz_one NAME: from the corpus and what it finds; what fails is left in build/ci-fuzz-found. Sanitizers make a second about three.
+# fuzz_one NAME: from the corpus and what it finds; what fails is left in build/ci-fuzz-found. Code runs about three times slower under sanitizers.
 fuzz_one() {
     local name=$1 found=$root/build/ci-fuzz-found
     mkdir -p "$found/$name"
@@ -394,7 +394,7 @@ for stage in "${selected[@]}"; do
     status=$?
     passed="$((SECONDS - started)) s: $(compiled) s compiling, $((SECONDS - started - $(compiled))) s running"
     times+=("$stage $passed")
-    tell_dearest
+    report_slowest
     if [ $status -eq 0 ]; then
         echo "== $stage passed in $passed"
         continue
@@ -404,6 +404,7 @@ for stage in "${selected[@]}"; do
 done
 if [ ${#failed[@]} -gt 0 ]; then
     echo "check.sh: FAILED: ${failed[*]}, of ${selected[*]}"
+    printf '   %s\n' "${times[@]}"
     exit 1
 fi
 echo "check.sh: all stages passed in $SECONDS s"

@@ -3,7 +3,7 @@
 --check only says whether the text that each fault changes is there.
 
 A fault is one change of one file. Its stage runs twice: as the project is, where it has to pass, and with the fault, where it has to
-fail, with the text that it is known by in what it prints; --passed leaves out the first, of a commit whose day and night have passed.
+fail, with the text that it is known by in what it prints; --passed leaves out the first, for a commit of which all stages are known to pass.
 Faults of one stage that do not hide each other are planted together. The copy lies in build/ci-faults and is kept; with ccache a
 fault costs what it changes. Prints a table; exit code 1 if a fault was not found or a stage fails without one. Hours for all of them.
 """
@@ -28,7 +28,7 @@ class Fault:
     old: str
     new: str
     shows: str  # a text that the failing stage prints
-    ends: bool = True  # its stage, before it comes to others
+    ends: bool = True  # the stage stops at this fault
 
 
 FAULTS = [
@@ -53,7 +53,7 @@ FAULTS = [
     Fault('broken scene', 'release', 'data/scenes/hang.toml',
           'largest_strain = { below = 0.12 }', 'largest_strain = { below = 0.0012 }', 'scene: hang (Failed)',
           ends=False),
-    Fault('overflow', 'sanitizers', 'engine/mesh/vertex_normals.cpp',
+    Fault('overflow in the engine', 'sanitizers', 'engine/mesh/vertex_normals.cpp',
           'std::size_t i = 0; i < normals.size(); ++i', 'std::size_t i = 0; i <= normals.size(); ++i', 'AddressSanitizer'),
     Fault('overflow in a reader of files', 'fuzz', 'scenes/meshes/off_file.cpp',
           'static_cast<std::size_t>(index) >= vertex_count)', 'static_cast<std::size_t>(index) > vertex_count)', 'AddressSanitizer'),

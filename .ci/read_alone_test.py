@@ -24,6 +24,14 @@ class Users(unittest.TestCase):
     def test_what_is_no_code_asks_for_itself(self):
         self.assertEqual(self.users('README.md', 'c.cpp'), ['README.md', 'c.cpp'])
 
+    def test_headers_do_not_count_and_what_changed_comes_first(self):
+        users = {f'engine/{number:03}.{end}' for number in range(50) for end in ('cpp', 'h')}
+        changed = ['engine/007.cpp', 'engine/007.h', 'tests/scenes/a_test.cpp', 'tests/engine/b_test.cpp']
+        self.assertEqual(read_alone.at_most(users, changed, 100), {path for path in users if path.endswith('.cpp')} | {'tests/scenes/a_test.cpp'})
+        few = read_alone.at_most(users, changed, 10)
+        self.assertEqual(len(few), 10)
+        self.assertTrue({'engine/007.cpp', 'tests/scenes/a_test.cpp'} <= few)
+
     def test_of_many_the_most_that_are_allowed_are_taken_evenly(self):
         paths = {f'{number:03}' for number in range(100)}
         self.assertEqual(read_alone.evenly(paths, 100), paths)
