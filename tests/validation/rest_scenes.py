@@ -23,19 +23,21 @@ TARGET = 2.0  # s after the last move
 
 
 class Draw:
-    """One scene: a fabric, cloths, obstacles and events, and when the last of them ends."""
+    """One scene, written into a file: a fabric, cloths, obstacles and events, and when the last of these ends."""
 
     def __init__(self, folder, kind, seed):
         self.folder, self.name, self.kind = folder, f'{kind}_{seed}', kind
         self.random = random.Random(f'{kind} {seed}')
         self.thickness = self.random.choice([0.001, 0.002, 0.003, 0.005])
         self.last, self.parts = 0.0, []
-        modulus = 10.0 ** self.random.uniform(1.5, 3.3)
-        self.parts.append(f'[fabric.f]\narea_density = {self.random.uniform(0.1, 0.4):.3f}\nthickness = {self.thickness}\nself_contact = true\n'
-                          f'friction = {self.random.uniform(0.2, 0.6):.2f}\nstretch_stiffness = [{modulus:.1f}, {modulus:.1f}]\n'
-                          f'bend_stiffness = {10.0 ** self.random.uniform(-5.3, -4.0):.3g}\n'
+        modulus = 10.0 ** self.pick(1.5, 3.3)  # N/m
+        self.parts.append(f'[fabric.f]\narea_density = {self.pick(0.1, 0.4):.3f}\nthickness = {self.thickness}\nself_contact = true\n'
+                          f'friction = {self.pick(0.2, 0.6):.2f}\nstretch_stiffness = [{modulus:.1f}, {modulus:.1f}]\n'
+                          f'bend_stiffness = {10.0 ** self.pick(-5.3, -4.0):.3g}\n'
                           f'damping_time = {self.random.choice([0.0, 0.005, 0.01, 0.03])}\n')
         getattr(self, kind)()
+        self.file = folder / f'{self.name}.toml'
+        self.file.write_text(self.text())
 
     def pick(self, low, high):
         return self.random.uniform(low, high)
@@ -48,8 +50,8 @@ class Draw:
         self.parts.append(f'[[obstacle]]\nname = "{name}"\n{shape}\nfriction = {self.pick(0.2, 0.6):.2f}\npose = {{ translation = '
                           f'[{at[0]:.5f}, {at[1]:.5f}, {at[2]:.5f}], rotation = {list(turn)} }}\n')
 
-    def table(self):
-        self.obstacle('table', 'shape = { plane = { half_size = 2.0 } }')
+    def table(self, height=0.0):
+        self.obstacle('table', 'shape = { plane = { half_size = 2.0 } }', (0.0, height, 0.0))
 
     def event(self, time, text, ends=0.0):
         self.parts.append(f'[[event]]\ntime = {time}\n{text}\n')
@@ -122,10 +124,7 @@ class Draw:
         for layer in range(self.random.choice([2, 3])):
             half = self.pick(-0.3, 0.3)
             self.cloth(f's{layer}', (0.4, 0.4), (21, 21), (0.01, 0.15 + 2.0 * self.thickness * (layer + 1), 0.007), (math.cos(half), 0.0, math.sin(half), 0.0))
-        self.table_below()
-
-    def table_below(self):
-        self.obstacle('floor', 'shape = { plane = { half_size = 2.0 } }', (0.0, -0.2, 0.0))
+        self.table(-0.2)
 
     def knobs(self):
         for i in range(9):
@@ -140,11 +139,9 @@ KINDS = ('fold', 'stack', 'crumple', 'lifted', 'pouch', 'bar', 'edge', 'sleeve',
 
 
 def run(program, draw, rate):
-    file = draw.folder / f'{draw.name}.toml'
-    file.write_text(draw.text())
     out = draw.folder / f'{draw.name}_{rate}'
     shutil.rmtree(out, ignore_errors=True)
-    subprocess.run([program, 'run', file, '-o', out, '--threads', '1', '--quiet', '--frames', 'none', '--set', f'step.time_step={1.0 / rate!r}'],
+    subprocess.run([program, 'run', draw.file, '-o', out, '--threads', '1', '--quiet', '--frames', 'none', '--set', f'step.time_step={1.0 / rate!r}'],
                    check=False, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     report, steps = out / 'report.json', out / 'steps.csv'
     if not report.exists() or not steps.exists():
