@@ -108,7 +108,7 @@ private:
     void set_matrix() {
         evaluate(true);
         percale::set_pattern(compute_, model_.adjacency, model_.mass, matrix_);
-        percale::fill_matrix(forces_.spring_terms, {}, no_blocks, matrix_);
+        percale::fill_matrix(forces_.spring_terms, {}, percale::ForceBlocks(), matrix_);
         multiply();
         multigrid_ = std::make_unique<percale::Multigrid>(compute_, model_.adjacency, model_.rest);
         multigrid_->fill(matrix_, percale::Multigrid::Coarser::filled);

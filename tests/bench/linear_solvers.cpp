@@ -89,7 +89,7 @@ public:
         for (int i = 0; i < model.vertex_count(); ++i) right.set(i, free[i] * dt * forces.total.at(i));
         percale::set_pattern(compute, model.adjacency, model.mass, matrix);
         matrix.free = free;
-        percale::fill_matrix(forces.spring_terms, {}, no_blocks, matrix);
+        percale::fill_matrix(forces.spring_terms, {}, percale::ForceBlocks(), matrix);
     }
     System(const System&) = delete;
     System& operator=(const System&) = delete;
