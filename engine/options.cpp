@@ -251,9 +251,9 @@ constexpr Option<StepSettings> step_list[] = {
      .set_choice = [](StepSettings& s, int i) { s.start = static_cast<StartRule>(i); }},
     {.key = "kinetic_damping",
      .unit = "",
-     .sentence = "Whether all cloth is stopped after each step in which its potential energy has risen, and for a second after "
-                 "each where it rises time and again, so that what swings or trembles comes to rest "
-                 "sooner, on a path that means nothing; not while pins or obstacles move, seams close or wind blows.",
+     .sentence =
+         "Whether all cloth is stopped after each step in which its potential energy has risen, so that what swings comes "
+         "to rest sooner, on a path that means nothing; not while pins or obstacles move, seams close or wind blows.",
      .flag = [](StepSettings& s) { return &s.kinetic_damping; }},
     {.key = "rest_speed",
      .unit = "m/s",

@@ -77,12 +77,6 @@ constexpr double shortest_step = 1e-7;
 /// freezes. Longer, smaller: cloth at rest is solved for ever.
 constexpr double rest_time = 0.5, rest_displacement_ratio = 0.002;
 
-/// RestState::unrest grows by the first number with each step in which the potential rises and falls by 1 in every other step,
-/// so that it grows where every third step rises. From the second number on each step stops cloth for so many s. Smaller: a
-/// swing creeps to rest.
-constexpr int unrest_of_rise = 3, max_unrest = 12;
-constexpr double stopping_time = 2.0 * rest_time;
-
 /// Largest motion in one part of a step: rotation of an obstacle in radians, and translations of an obstacle and of a pin in
 /// thicknesses. Larger: parts that vertices on straight lines do not follow, and lists of contacts that grow. Smaller: more
 /// parts.
@@ -108,6 +102,6 @@ constexpr double opposite_sides = -0.5;
 
 /// Fraction of the shortest spring, the displacement of vertices. The others are multiples of that displacement: how near the
 /// kinks of wind (as a distance in dt), of contact and of strain limits a vertex is left out.
-constexpr double difference_step_ratio = 1e-5, wind_kink_reaches = 1e3, contact_kink_reaches = 10.0, limit_kink_reaches = 4.0;
+constexpr double difference_step_ratio = 1e-5, wind_kink_reaches = 1e3, limit_kink_reaches = 4.0;
 
 }  // namespace percale

@@ -42,9 +42,15 @@ void collect_rings(ClothSurface& surface) {
     }
     for (std::size_t v = 0; v < vertices; ++v) surface.ring_start[v + 1] += surface.ring_start[v];
     surface.ring.resize(2 * surface.edges.size());
+    surface.ring_edges.resize(surface.ring.size());
     std::vector<int> next(surface.ring_start.begin(), surface.ring_start.end() - 1);
-    for (const ClothSurface::Edge& edge : surface.edges) {
-        for (int k = 0; k < 2; ++k) surface.ring[next[edge.vertex[k]]++] = edge.vertex[1 - k];
+    for (int number = 0; number < static_cast<int>(surface.edges.size()); ++number) {
+        const Ends& ends = surface.edges[number].vertex;
+        for (int k = 0; k < 2; ++k) {
+            const int place = next[ends[k]]++;
+            surface.ring[place] = ends[1 - k];
+            surface.ring_edges[place] = number;
+        }
     }
 }
 

@@ -21,9 +21,13 @@ struct ClothSurface {
     std::vector<Edge> edges;                         // in ascending order of their vertices
     std::vector<int> vertex_owner;                   // lowest triangle at a vertex, -1: none
     std::vector<int> ring_start, ring;  // neighbours of vertex v: ring[ring_start[v]] ... ring[ring_start[v + 1] - 1]
+    std::vector<int> ring_edges;        // the edges to them
 
     std::span<const int> neighbours(int vertex) const {
         return std::span(ring).subspan(ring_start[vertex], ring_start[vertex + 1] - ring_start[vertex]);
+    }
+    std::span<const int> edges_at(int vertex) const {
+        return std::span(ring_edges).subspan(ring_start[vertex], ring_start[vertex + 1] - ring_start[vertex]);
     }
     /// The edge between two vertices; they must be neighbours.
     int edge_between(int a, int b) const;

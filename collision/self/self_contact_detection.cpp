@@ -105,10 +105,30 @@ void SelfContactDetection::add_constraints_of(SelfList& list, std::span<const Ve
     }
 }
 
-/// Measures a pair and adds its contact constraint; returns its distance, or infinity if it is not in contact.
+/// Measures a pair and adds its contact constraints; returns its distance, or infinity if it is not in contact.
 double SelfContactDetection::measure(SelfList& list, SelfPair& pair, std::span<const Vec3> positions,
                                      ContactConstraints& constraints) {
-    const SelfPairContact contact = self_contact(pair, positions, lists_.surface());
+    return pair.shape == PairShape::edge_edge ? measure_edges(list, pair, positions, constraints)
+                                              : measure_vertex(list, pair, positions, constraints);
+}
+
+double SelfContactDetection::measure_vertex(SelfList& list, SelfPair& pair, std::span<const Vec3> positions,
+                                            ContactConstraints& constraints) const {
+    const VertexTerms terms = vertex_terms(pair, positions, lists_.cloth());
+    pair.reach = terms.distance + list.travel;
+    double smallest = infinity;
+    for (const VertexTerm& term : std::span(terms.terms).first(terms.count)) {
+        const double activation_distance = activation_distance_at(pair, list.seam_activation_distance(pair), term.weight);
+        if (term.distance >= activation_distance) continue;
+        add_constraint(pair, activation_distance, term, constraints);
+        smallest = std::min(smallest, term.distance);
+    }
+    return smallest;
+}
+
+double SelfContactDetection::measure_edges(SelfList& list, SelfPair& pair, std::span<const Vec3> positions,
+                                           ContactConstraints& constraints) const {
+    const SelfPairContact contact = edge_contact(pair, positions, lists_.surface());
     pair.reach = contact.distance + list.travel;
     const double activation_distance = std::max(contact.activation_ratio, contact.crossing * min_activation_ratio) *
                                        activation_distance_at(pair, list.seam_activation_distance(pair), contact.weight);
@@ -116,21 +136,29 @@ double SelfContactDetection::measure(SelfList& list, SelfPair& pair, std::span<c
         list.record_of(pair).activation_distance = activation_distance;
     const double begun = list.activation_distance(pair);
     if (contact.distance >= begun) return infinity;
-    add_constraint(pair, begun, contact, constraints);
+    add_constraint(pair, begun, {contact.distance, contact.weight, contact.direction, 1}, constraints);
     return contact.distance;
 }
 
-void SelfContactDetection::add_constraint(const SelfPair& pair, double activation_distance, const SelfPairContact& contact,
+/// Vertices without weight are left out.
+void SelfContactDetection::add_constraint(const SelfPair& pair, double activation_distance, const VertexTerm& term,
                                           ContactConstraints& constraints) const {
-    constraints.vertex.push_back(pair.vertex);
-    constraints.weight.push_back(contact.weight);
-    constraints.direction.push_back(contact.direction);
+    std::array<int, 4> vertex{-1, -1, -1, -1};
+    std::array<double, 4> weight{};
+    for (int k = 0, count = 0; k < 4; ++k) {
+        if (term.weight[k] == 0.0) continue;
+        vertex[count] = pair.vertex[k];
+        weight[count++] = term.weight[k];
+    }
+    constraints.vertex.push_back(vertex);
+    constraints.weight.push_back(weight);
+    constraints.direction.push_back(term.direction);
     constraints.obstacle_point.push_back(Vec3::Zero());
     constraints.obstacle_displacement.push_back(Vec3::Zero());
-    constraints.distance.push_back(contact.distance);
+    constraints.distance.push_back(term.distance);
     constraints.thickness.push_back(activation_distance);
     constraints.friction.push_back(0.5 * (friction_[pair.vertex[0]] + friction_[pair.vertex[3]]));
-    constraints.mollifier.push_back(1.0);
+    constraints.mollifier.push_back(term.factor);
     constraints.obstacle.push_back(-1);
     constraints.feature.push_back(pair.shape == PairShape::edge_edge ? 2 : 1);
 }

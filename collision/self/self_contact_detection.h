@@ -6,6 +6,7 @@
 
 #include "percale/contact.h"
 #include "self/self_contact_state.h"
+#include "self/vertex_terms.h"
 
 namespace percale {
 
@@ -44,7 +45,9 @@ private:
     void add_constraints_of(SelfList& list, std::span<const Vec3> positions, double& smallest, ContactConstraints& constraints);
     double clamp(SelfList& list, std::span<const Vec3> from, std::span<const Vec3> to, double safe);
     double measure(SelfList& list, SelfPair& pair, std::span<const Vec3> positions, ContactConstraints& constraints);
-    void add_constraint(const SelfPair& pair, double activation_distance, const SelfPairContact& contact,
+    double measure_vertex(SelfList& list, SelfPair& pair, std::span<const Vec3> positions, ContactConstraints& constraints) const;
+    double measure_edges(SelfList& list, SelfPair& pair, std::span<const Vec3> positions, ContactConstraints& constraints) const;
+    void add_constraint(const SelfPair& pair, double activation_distance, const VertexTerm& term,
                         ContactConstraints& constraints) const;
 
     SelfContactLists lists_;

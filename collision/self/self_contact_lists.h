@@ -58,6 +58,7 @@ public:
             for (SelfList& list : island.lists) work(list);
         }
     }
+    const SelfCloth& cloth() const { return cloth_; }
     const ClothSurface& surface() const { return cloth_.surface; }
     const ClothPairs& cloth_pairs() const { return cloth_.pairs; }
     std::size_t cloth_count() const { return near_cloths_.count(); }

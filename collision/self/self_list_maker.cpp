@@ -59,6 +59,16 @@ void transfer(const std::vector<Element>& from, std::vector<Element>& to) {
 
 }  // namespace
 
+bool SelfCloth::meets(int vertex, int triangle) const {
+    const Triangle& corners = surface.triangles[triangle];
+    if (vertex == corners[0] || vertex == corners[1] || vertex == corners[2]) return false;
+    return sewn_distance(std::array{vertex}, corners) > 0.0;
+}
+
+double SelfCloth::sewn_distance(std::span<const int> first, std::span<const int> second) const {
+    return sewn.overlap(first, second) ? 0.0 : sewn.distance(first, second);
+}
+
 void SelfCloth::forget_boxes() {
     for (SelfCluster& cluster : clusters) cluster.is_boxed = cluster.features_are_boxed = false;
 }
@@ -199,15 +209,6 @@ double SelfListMaker::thickness_by_rest(std::span<const int> first, std::span<co
     return thickness_from_rest(std::sqrt(square), max);
 }
 
-/// m, distance at rest through a seam near the pair; 0 where the pair is sewn together or overlaps there, infinity without such a
-/// seam.
-double SelfListMaker::sewn_distance(const SelfPair& pair) const {
-    const std::span<const int> vertices = pair.vertex;
-    const std::size_t of_first = pair.shape == PairShape::edge_edge ? 2 : 1;
-    const auto first = vertices.first(of_first), second = vertices.subspan(of_first);
-    return cloth_->sewn.overlap(first, second) ? 0.0 : cloth_->sewn.distance(first, second);
-}
-
 /// Sets the thickness of a pair near a seam by the paths between vertices through the seam.
 void SelfListMaker::set_seam_activation_distance(SelfPair& pair, std::array<double, 4>& seam_activation_distance) const {
     const bool edges = pair.shape == PairShape::edge_edge;
@@ -230,7 +231,9 @@ void SelfListMaker::consider(SelfPair pair, double room, std::span<const Vec3> f
     pair.reach = self_distance(pair, from);
     if (pair.reach >= pair.thickness + room) return;
     const bool one_cloth = cloth_->cloth[pair.vertex[0]] == cloth_->cloth[pair.vertex[3]];
-    const double through_seam = sewn_distance(pair);
+    const std::span<const int> vertices = pair.vertex;
+    const std::size_t of_first = pair.shape == PairShape::edge_edge ? 2 : 1;
+    const double through_seam = cloth_->sewn_distance(vertices.first(of_first), vertices.subspan(of_first));
     if (through_seam == 0.0) return;
     std::array<double, 4> seam_activation_distance = away_from_seams;
     if (tolerances::seam_activation_ratio * through_seam < pair.thickness)

@@ -40,6 +40,11 @@ struct SelfCloth {
     std::vector<SelfCluster> clusters = {};
     std::vector<Box> vertex_boxes = {}, edge_boxes = {}, triangle_boxes = {};  // m, where a move begins
 
+    /// Whether a vertex and a triangle can come into contact: they share no vertex, and no stitch joins them.
+    bool meets(int vertex, int triangle) const;
+    /// m, distance at rest through a seam near two features, given by their vertices; 0 where they are sewn together or overlap
+    /// there, infinity without such a seam.
+    double sewn_distance(std::span<const int> first, std::span<const int> second) const;
     /// Marks all boxes as unknown at the start of a move.
     void forget_boxes();
     void set_box(int cluster, std::span<const Vec3> positions);
@@ -98,7 +103,6 @@ private:
     void pair_edges(bool one, Reach reach, std::span<const Vec3> from);
     void set_seam_activation_distance(SelfPair& pair, std::array<double, 4>& seam_activation_distance) const;
     double thickness_by_rest(std::span<const int> first, std::span<const int> second, double max) const;
-    double sewn_distance(const SelfPair& pair) const;
     void consider(SelfPair pair, double room, std::span<const Vec3> from);
     void take_over_activation_distances();
 

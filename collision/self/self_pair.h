@@ -32,19 +32,17 @@ struct SelfPairRecord {
     double activation_distance = 0.0;  // m, of its contact since the last update_candidates; 0: it is no contact
 };
 
-/// The exact closest points of a pair.
+/// The exact closest points of two edges.
 struct SelfPairContact {
     double distance = 0.0;           // m
     std::array<double, 4> weight{};  // of the pair's vertices: > 0 on the first side, < 0 on the second, sum 0
     Vec3 direction = Vec3::Zero();   // unit, second side towards first
-    /// Fraction of the thickness below which the pair represents the contact: 1 where it is a local minimum of the distance
-    /// (closest points inside the face, or on its edges and corners where the faces around fall away; inside two edges that are
-    /// ridges or boundaries). For edges with closest points inside both: 1/2 in flat cloth, where vertices and faces meet first,
-    /// in between according to the bend of the cloth, times `crossing`. Else 0. One pair represents closest points that several
-    /// pairs share. It is not computed for edges farther apart than the pair's thickness.
+    /// Fraction of the thickness below which the pair represents the contact: where the closest points are inside two edges, 1
+    /// for ridges and boundaries, 3/4 in flat cloth, where vertices and faces meet first, in between according to the bend of the
+    /// cloth, times `crossing`. Else 0. It is not computed for edges farther apart than the pair's thickness.
     double activation_ratio = 0.0;
     /// A factor that fades nearly parallel edges, contained in activation_ratio: 0 where their closest points jump from end to
-    /// end, 1 from twice that angle on. 1 for a vertex and a face.
+    /// end, 1 from twice that angle on.
     double crossing = 1.0;
 };
 
@@ -56,7 +54,7 @@ double activation_distance_at(const SelfPair& pair, const std::array<double, 4>&
 /// Distance of the pair, m.
 double self_distance(const SelfPair& pair, std::span<const Vec3> positions);
 
-SelfPairContact self_contact(const SelfPair& pair, std::span<const Vec3> positions, const ClothSurface& surface);
+SelfPairContact edge_contact(const SelfPair& pair, std::span<const Vec3> positions, const ClothSurface& surface);
 
 MovingFour moving_pair(const SelfPair& pair, std::span<const Vec3> from, std::span<const Vec3> to);
 

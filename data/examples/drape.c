@@ -87,7 +87,7 @@ int main(void) {
     made_objects made = {NULL, NULL, NULL, NULL};
     int unsolved = 0, crosses = 0;
     percale_status status = make_scene(&made);
-    if (status == PERCALE_OK) status = settle(made.simulation, 120, &unsolved);
+    if (status == PERCALE_OK) status = settle(made.simulation, 240, &unsolved);
     if (status == PERCALE_OK) status = tell(made.simulation);
     if (status == PERCALE_OK) status = check(&made, &crosses);
     if (unsolved > 0) fprintf(stderr, "drape: %d steps were taken unsolved\n", unsolved);

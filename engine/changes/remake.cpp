@@ -89,6 +89,8 @@ private:
         for (int i = vertices.first; i < vertices.last; ++i) made_.vertex[i] = i + shift;
         append_part(before_.mass, vertices, model.mass);
         append_part(before_.thickness, vertices, model.thickness);
+        append_part(before_.modulus, vertices, model.modulus);
+        append_part(before_.length, vertices, model.length);
         append_part(before_.rest, vertices, model.rest);
         for (const Triangle& t : triangles_of(before_, cloth)) model.triangles.push_back(renumbered(t));
         ClothRange& own = model.cloths.emplace_back(cloth);

@@ -44,6 +44,22 @@ void renumber(ContactMultipliers& forces, VertexNumber vertex, ObstacleNumber ob
     forces.set(left);
 }
 
+/// The same for entries with several vertices.
+template <class VertexNumber>
+void renumber(std::vector<ClothAnchor>& anchors, VertexNumber vertex) {
+    std::vector<ClothAnchor> left;
+    for (ClothAnchor anchor : anchors) {
+        bool there = true;
+        for (int& each : anchor.vertex) {
+            if (each < 0) continue;
+            each = vertex(each);
+            there = there && each >= 0;
+        }
+        if (there) left.push_back(anchor);
+    }
+    anchors = std::move(left);
+}
+
 /// Stores the contact forces of the last solve, as its constraints keep their old numbers.
 void note_loads(World& world) {
     world.saved_loads = contact_loads(world);
@@ -58,7 +74,7 @@ void renumber_contacts(World& world, VertexNumber vertex, ObstacleNumber obstacl
     renumber(world.state.cloth.impacts, vertex, obstacle);
     renumber(world.state.contact.last, vertex, obstacle);
     renumber(world.state.contact.lasting, vertex, obstacle);
-    renumber(world.state.contact.held, vertex, obstacle);
+    renumber(world.state.contact.cloth_anchors, vertex);
     if (world.refused.obstacle >= 0) world.refused.obstacle = obstacle(world.refused.obstacle);
     for (int& each : world.refused.vertices) each = vertex(each);
     std::erase(world.refused.vertices, -1);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "contact/contact_stiffness.h"
 #include "forces/springs.h"
 #include "forces/total_force.h"
 #include "linear/block_matrix.h"
@@ -137,12 +138,11 @@ struct ContactCheck {
             moved.distance[constraint] += change;
         }
         const ContactStep contact{.dt = step.dt,
-                                  .stiffness_dt = step.end.contact_dt,
                                   .fraction = 1.0,
-                                  .gravity = step.scene.settings.gravity,
                                   .mass = &step.scene.model.mass,
-                                  .diagonal = &step.work.newton.stage.frozen.diagonal,
-                                  .load = &step.work.newton.stage.frozen.load};
+                                  .gravity = contact_gravity(step.scene.settings.gravity),
+                                  .modulus = &step.scene.model.modulus,
+                                  .length = &step.scene.model.length};
         std::vector<ConstraintForce> constraint_forces;
         add_contact(moved, contact, positions, forces, result, constraint_forces);
         return result.energy;
@@ -157,24 +157,22 @@ struct ContactCheck {
         }
     }
 
-    /// Where a constraint is about to end or to begin, the second derivative jumps.
-    void set_exact(double difference_step) {
+    /// The matrix has nothing of what is subtracted.
+    void set_exact() {
         for (std::size_t constraint = 0; constraint < constraints.size(); ++constraint) {
-            if (std::abs(constraints.distance[constraint] - constraints.thickness[constraint]) >
-                contact_kink_reaches * difference_step)
-                continue;
+            if (constraints.mollifier[constraint] > 0.0) continue;
             for (std::size_t k = 0; k < 4 && constraints.vertex[constraint][k] >= 0; ++k)
                 exact[constraints.vertex[constraint][k]] = false;
         }
     }
 };
 
-CheckedTerm contact_term(const StepEnd& step, double difference_step) {
+CheckedTerm contact_term(const StepEnd& step) {
     auto check = std::make_shared<ContactCheck>(step);
     Vec3Arrays forces;
     forces.resize(step.scene.model.vertex_count());
     check->evaluate(step.end.cloth.positions, forces, check->terms);
-    check->set_exact(difference_step);
+    check->set_exact();
     return {.name = "contact",
             .add_forces =
                 [=](const Vec3Arrays& positions, Vec3Arrays& sum) {
@@ -225,7 +223,7 @@ std::vector<CheckedTerm> checked_terms(const StepEnd& step) {
     add_checked_terms(step, reach_of(step), terms);
     const bool penalty = step.scene.settings.contact_response == ContactResponse::penalty;
     if (step.scene.plan.contacts && penalty && step.work.newton.current.constraints.size() > 0) {
-        terms.push_back(contact_term(step, reach_of(step)));
+        terms.push_back(contact_term(step));
     }
     return terms;
 }

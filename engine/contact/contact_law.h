@@ -7,21 +7,22 @@
 #include "model/vec3_arrays.h"
 #include "multipliers.h"
 #include "percale/contact.h"
+#include "potential.h"
 
 namespace percale {
 
 /// What a contact law needs to know of the stage in which it is evaluated.
 struct ContactStep {
-    double dt = 0.0;                             // s, h sqrt(contact_weight) of the stage: contact then has backward Euler's form
-    double stiffness_dt = 0.0;                   // s, for which the inertial part of the stiffness is made, where longer than dt
-    double obstacle_rate = 0.0;                  // 1/s, obstacle velocity / obstacle_displacement
-    double fraction = 0.0;                       // of the whole step, where the obstacles are
-    Vec3 gravity = Vec3::Zero();                 // m/s^2
-    const std::vector<double>* mass = nullptr;   // kg, of each vertex
-    const DiagonalBlocks* diagonal = nullptr;    // of the elastic step matrix at the stage's first evaluation; frozen
-    const Vec3Arrays* load = nullptr;            // N, forces without contact, likewise; null: gravity alone
-    const FrictionStart* friction = nullptr;     // null: without friction
-    const FrictionContacts* previous = nullptr;  // of the last accepted Newton iterate; null at the first evaluation
+    double dt = 0.0;                            // s, h sqrt(contact_weight) of the stage: contact then has backward Euler's form
+    double obstacle_rate = 0.0;                 // 1/s, obstacle velocity / obstacle_displacement
+    double fraction = 0.0;                      // of the whole step, where the obstacles are
+    const std::vector<double>* mass = nullptr;  // kg, of each vertex
+    double gravity = 0.0;                       // m/s^2
+    const std::vector<double>* modulus = nullptr;  // N/m, of each vertex, for penalty
+    const std::vector<double>* length = nullptr;   // m, likewise (ContactScale)
+    const DiagonalBlocks* diagonal = nullptr;      // of the elastic step matrix at the stage's first evaluation; frozen
+    const FrictionStart* friction = nullptr;       // null: without friction
+    const FrictionContacts* previous = nullptr;    // of the last accepted Newton iterate; null at the first evaluation
 };
 
 /// The result of one evaluation of contact.
@@ -29,6 +30,7 @@ struct ContactTerms {
     std::vector<CoupledBlock> blocks;  // those of constraints, then one per friction contact
     FrictionContacts friction_contacts;
     std::vector<ClothFrictionContact> cloth_friction_contacts;  // of the constraints between cloths
+    std::vector<ContactStiffness> stiffness;                    // of each constraint, with penalty
     double energy = 0.0;                                        // J, without friction
     double largest_stiffness = 0.0;                             // N/m
     double obstacle_power = 0.0;                                // W, of the obstacles on the cloth
@@ -36,6 +38,7 @@ struct ContactTerms {
     void clear() {
         blocks.clear();
         cloth_friction_contacts.clear();
+        stiffness.clear();
         energy = largest_stiffness = obstacle_power = 0.0;
     }
 };
@@ -59,9 +62,10 @@ struct ContactForces {
 
 /// The warm start of contact: what one implicit stage passes on to the next, within a substep and beyond.
 struct ContactWarmStart {
-    ContactMultipliers last, lasting;  // forces at the end of the last stage; those that lasted for two stages
-    ContactMultipliers held;           // for penalty: anchors of friction between cloths at that end (set_held)
-    double min_distance = 0.0;         // smallest distance over thickness of the constraints at that end; 0 if unknown
+    ContactMultipliers last, lasting;        // forces at the end of the last stage; those that lasted for two stages
+    std::vector<ClothAnchor> cloth_anchors;  // for penalty: of friction between cloths at that end
+    double energy = 0.0;                     // J, without friction, at that end
+    double min_distance = 0.0;               // smallest distance over thickness of the constraints at that end; 0 if unknown
 
     void forget() { *this = {}; }
 };

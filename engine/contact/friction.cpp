@@ -81,18 +81,16 @@ ClothFrictionContact cloth_friction_contact(const FrictionStart& start, const Co
     ClothFrictionContact contact{.constraint = constraint,
                                  .law = {.limit = constraints.friction[constraint] * normal_force,
                                          .stick_threshold = stick_threshold_ratio * constraints.thickness[constraint]}};
-    for (int k = 0; k < 4 && constraints.vertex[constraint][k] >= 0; ++k) {
-        const int vertex = constraints.vertex[constraint][k];
-        contact.moved += constraints.weight[constraint][k] * (positions.at(vertex) - start.positions->at(vertex));
-    }
+    const ClothAnchor* anchor =
+        start.cloth_anchors ? start.cloth_anchors->find(constraints, constraint, *start.positions) : nullptr;
+    contact.had_anchor = anchor != nullptr;
+    contact.vertex = anchor ? anchor->vertex : constraints.vertex[constraint];
+    contact.weight = anchor ? anchor->weight : constraints.weight[constraint];
+    for (int k = 0; k < 4 && contact.vertex[k] >= 0; ++k)
+        contact.moved += contact.weight[k] * (positions.at(contact.vertex[k]) - start.positions->at(contact.vertex[k]));
     contact.moved = tangential(contact.moved, constraints.direction[constraint]);
     contact.slip = contact.moved;
-    if (!start.held) return contact;
-    const ConstraintForce before = start.held->of(constraint_key(constraints, constraint));
-    if (before.normal > 0.0) {
-        const CoulombLaw law{constraints.friction[constraint] * before.normal, contact.law.stick_threshold};
-        contact.slip += law.slip_of(tangential(before.friction, constraints.direction[constraint]));
-    }
+    if (anchor) contact.slip += tangential(anchor->stretch, constraints.direction[constraint]);
     return contact;
 }
 
@@ -115,15 +113,6 @@ void set_stick_anchors(const FrictionContacts& friction_contacts, std::vector<St
     }
     std::sort(stick_anchors.begin(), stick_anchors.end(),
               [](const StickAnchor& a, const StickAnchor& b) { return key(a) < key(b); });
-}
-
-void set_held(const ContactConstraints& constraints, std::span<const ClothFrictionContact> cloth_friction_contacts,
-              const std::vector<ConstraintForce>& constraint_forces, ContactMultipliers& held) {
-    held.clear(cloth_friction_contacts.size());
-    for (const ClothFrictionContact& contact : cloth_friction_contacts) {
-        held.add(constraint_key(constraints, contact.constraint),
-                 {.normal = constraint_forces[contact.constraint].normal, .friction = contact.law.force(contact.slip)});
-    }
 }
 
 }  // namespace percale

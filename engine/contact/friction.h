@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "cloth_anchors.h"
 #include "coulomb.h"
 #include "model/cloth_state.h"
-#include "multipliers.h"
 #include "percale/contact.h"
 
 namespace percale {
@@ -27,7 +27,7 @@ struct FrictionStart {
     double fraction = 0.0;                                  // of the whole step, at the start of the stage
     std::span<const StickAnchor> stick_anchors = {};        // at the start of the stage; sorted by vertex and obstacle
     std::span<const ObstacleMotion> obstacle_motions = {};  // of each obstacle; those beyond the list are at rest
-    const ContactMultipliers* held = nullptr;               // of the constraints between cloths, from set_held; null: none
+    const ClothAnchors* cloth_anchors = nullptr;            // between cloths, likewise; null: none
 };
 
 /// A vertex in contact with an obstacle: the sum over all constraints between them. `friction_limit` is a vector, the sum of
@@ -46,14 +46,6 @@ struct FrictionContact {
                                                 // matrix treats the contact as sticking, also beyond the threshold
 
     CoulombLaw law() const { return {friction_limit.norm(), stick_threshold}; }
-};
-
-/// Friction of a constraint between two cloths.
-struct ClothFrictionContact {
-    int constraint = -1;
-    CoulombLaw law = {};
-    Vec3 slip = Vec3::Zero();   // m, tangential, of the first side from its anchor on the second
-    Vec3 moved = Vec3::Zero();  // m, the part of the slip that the stage added
 };
 
 /// The friction contacts of one evaluation.
@@ -80,10 +72,5 @@ double stick_energy(std::span<const ClothFrictionContact> cloth_friction_contact
 
 /// Sets the stick anchors that friction contacts leave behind. A sliding contact drags its anchor along.
 void set_stick_anchors(const FrictionContacts& friction_contacts, std::vector<StickAnchor>& stick_anchors);
-
-/// The same for constraints between cloths, by their keys: the slip is stored as a pair of forces, the normal force and the
-/// friction (CoulombLaw::slip_of).
-void set_held(const ContactConstraints& constraints, std::span<const ClothFrictionContact> cloth_friction_contacts,
-              const std::vector<ConstraintForce>& constraint_forces, ContactMultipliers& held);
 
 }  // namespace percale

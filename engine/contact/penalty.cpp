@@ -3,25 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact_stiffness.h"
 #include "tolerances.h"
 
 namespace percale {
 namespace {
-
-/// Fraction of the step matrix that the contact stiffness takes. Smaller: cloth sinks in. Larger: Newton takes longer.
-constexpr double penalty_stiffness_ratio = 0.5;
-
-/// Factor of the load on a constraint over h, which is its minimum stiffness. At 4 cloth rests at 3/4 h or more.
-constexpr double static_load_factor = 4.0;
-
-/// Fraction of h that an obstacle moves along the normal in a step; beyond it contact stiffness follows from this step's length
-/// alone. Smaller: obstacles that hardly move throw up what lies on them. Larger: fast ones meet cloth whose contact is too
-/// soft.
-constexpr double moving_obstacle_ratio = 0.2;
-/// Fraction of h within which contact in a substep shorter than its step stops cloth at the speed of a moving obstacle. Stages
-/// of TR-BDF2 are as stiff as their length makes them where the obstacle moves by moving_obstacle_ratio. Smaller: adaptive steps
-/// throw cloth.
-constexpr double stopping_ratio = 1.0 / 12.0;
 
 /// Fraction of h. A constraint's distance at the start of a move counts as at least this: the ledger's potential has no bound at
 /// 0.
@@ -40,36 +26,25 @@ double at_contact(const ContactConstraints& constraints, std::size_t constraint,
     return between_cloths ? 1.0 / sum : sum;
 }
 
-/// 1/dt^2 for the inertial part: dt of this substep where the obstacle moves along the normal by a fifth of the thickness or more
-/// in the step. A substep may be far shorter than its step, and the energy that contact then stores would come from nowhere: the
-/// result is at most what stops cloth at the obstacle's speed u within a fraction s of the thickness h, (u/(s h))^2.
-double inverse_square_dt(const ContactConstraints& constraints, std::size_t constraint, const ContactStep& step) {
-    const double displacement = std::abs(constraints.direction[constraint].dot(constraints.obstacle_displacement[constraint]));
-    const double ratio = std::min(displacement / (moving_obstacle_ratio * constraints.thickness[constraint]), 1.0);
-    const double longer = std::max(step.dt, step.stiffness_dt);
-    const double of_both = ratio / (step.dt * step.dt) + (1.0 - ratio) / (longer * longer);
-    if (longer == step.dt) return of_both;
-    const double stopping = displacement * step.obstacle_rate / (stopping_ratio * constraints.thickness[constraint]);  // 1/s
-    return std::min(of_both, std::max(1.0 / (longer * longer), stopping * stopping));
+/// Adds a vertex with a weight to the scale of its side.
+void add_vertex(const ContactStep& step, int vertex, double weight, ContactScale& scale) {
+    scale.weight += weight * (*step.mass)[vertex] * step.gravity;
+    scale.modulus += weight * (*step.modulus)[vertex];
+    scale.length += weight * (*step.length)[vertex];
 }
 
-double constraint_stiffness(const ContactConstraints& constraints, std::size_t constraint, const ContactStep& step) {
-    const Vec3& n = constraints.direction[constraint];
-    const double inertia =
-        at_contact(constraints, constraint, [&](int vertex) { return quadratic_form(step.diagonal->block(vertex), n); });
-    const double inert = std::min(inertia, at_contact(constraints, constraint, [&](int vertex) { return (*step.mass)[vertex]; }));
-    double mass = 0.0, load = 0.0, squares = 0.0;
+/// The stiffness of a constraint, of two cloths in series; below 0 where the constraint is subtracted.
+ContactStiffness constraint_stiffness(const ContactConstraints& constraints, std::size_t constraint, const ContactStep& step) {
+    ContactScale first, second;
     for (int k = 0; k < 4 && constraints.vertex[constraint][k] >= 0; ++k) {
-        const int vertex = constraints.vertex[constraint][k];
         const double weight = constraints.weight[constraint][k];
-        mass += std::abs(weight) * (*step.mass)[vertex];
-        squares += weight * weight;
-        if (step.load) load -= weight * n.dot(step.load->at(vertex));
+        add_vertex(step, constraints.vertex[constraint][k], std::abs(weight), weight > 0.0 ? first : second);
     }
-    const double static_load = std::max(mass * step.gravity.norm(), load / squares);
-    const double of_matrix = inert * inverse_square_dt(constraints, constraint, step) + (inertia - inert) / (step.dt * step.dt);
-    return constraints.mollifier[constraint] *
-           std::max(penalty_stiffness_ratio * of_matrix, static_load_factor * static_load / constraints.thickness[constraint]);
+    const double h = constraints.thickness[constraint], mollifier = constraints.mollifier[constraint];
+    const ContactStiffness stiffness = constraints.obstacle[constraint] >= 0
+                                           ? contact_stiffness(first, h)
+                                           : in_series(contact_stiffness(first, h), contact_stiffness(second, h));
+    return {mollifier * stiffness.quadratic, mollifier * stiffness.quartic};
 }
 
 /// Adds the normal force of a constraint with an obstacle to the friction contacts of its vertices. Opposed normals, from the two
@@ -129,7 +104,7 @@ void add_friction(const ContactStep& step, const Vec3Arrays& positions, Friction
 bool slides(const ContactConstraints& constraints, const ClothFrictionContact& cloth_contact, const ContactStep& step) {
     const double length = cloth_contact.slip.norm();
     if (!cloth_contact.law.slides(length)) return false;
-    if (step.previous || cloth_contact.slip != cloth_contact.moved) return true;
+    if (step.previous || cloth_contact.had_anchor) return true;
     const double mass = at_contact(constraints, cloth_contact.constraint, [&](int vertex) { return (*step.mass)[vertex]; });
     return length * mass > step.dt * step.dt * cloth_contact.law.limit;
 }
@@ -150,24 +125,29 @@ struct PenaltyLoss {
     double friction = 0.0, integrator = 0.0, stored_at_start = 0.0;
 };
 
-void add_constraint_loss(const ContactMove& move, const CoupledBlock& block, PenaltyLoss& loss) {
-    const std::size_t constraint = block.constraint;
+void add_constraint_loss(const ContactMove& move, std::size_t constraint, PenaltyLoss& loss) {
+    const ContactStiffness& stiffness = move.terms.stiffness[constraint];
     const Vec3& n = move.constraints.direction[constraint];
     const double h = move.constraints.thickness[constraint], d = move.constraints.distance[constraint];
-    const double k = stiffness_of_curvature(quadratic_form(block.k, n) / (move.dt * move.dt), d, h);  // n.K n = dt^2 P''
+    if (d >= h) return;
     const double opened = n.dot(relative_move(move, constraint));
     const double began = std::max(d - opened, std::min(d, min_start_ratio * h));
-    const ContactPotential end = contact_potential(d, h, k), start = contact_potential(began, h, k);
+    const ContactPotential end = contact_potential(d, h, stiffness), start = contact_potential(began, h, stiffness);
     loss.stored_at_start += start.energy;
     loss.integrator += start.energy - end.energy - end.slope * opened;
 }
 
-/// Adds the loss of a friction contact with a slip; `moved`: the part of it that belongs to the move.
-void add_friction_loss(const CoulombLaw& law, const Vec3& slip, const Vec3& moved, PenaltyLoss& loss) {
+/// A slip, the part of it that belongs to the move, and the path along which its force acts in the move, m.
+struct MovedSlip {
+    Vec3 slip, moved, path;
+};
+
+void add_friction_loss(const CoulombLaw& law, const MovedSlip& of, PenaltyLoss& loss) {
+    const auto& [slip, moved, path] = of;
     const double end = law.potential(slip.norm()), start = law.potential((slip - moved).norm());
     loss.friction += law.limit * std::max(slip.norm() - law.stick_threshold, 0.0);
     loss.stored_at_start += start;
-    loss.integrator += start - end - law.force(slip).dot(moved);
+    loss.integrator += start - end - law.force(slip).dot(path);
 }
 
 void add_friction_contact_loss(const ContactMove& move, const FrictionContact& friction_contact, PenaltyLoss& loss) {
@@ -175,7 +155,8 @@ void add_friction_contact_loss(const ContactMove& move, const FrictionContact& f
     if (law.limit == 0.0) return;
     const Vec3 along = move.end.at(friction_contact.vertex) - move.start.at(friction_contact.vertex) -
                        move.dt * move.obstacle_rate * friction_contact.obstacle_displacement;
-    add_friction_loss(law, friction_contact.slip, tangential(along, friction_contact.friction_limit / law.limit), loss);
+    const Vec3 moved = tangential(along, friction_contact.friction_limit / law.limit);
+    add_friction_loss(law, {friction_contact.slip, moved, moved}, loss);
 }
 
 }  // namespace
@@ -186,17 +167,17 @@ void add_contact(const ContactConstraints& constraints, const ContactStep& step,
     constraint_forces.clear();
     terms.friction_contacts.clear(positions.padded_size());
     for (std::size_t constraint = 0; constraint < constraints.size(); ++constraint) {
-        const double stiffness = constraint_stiffness(constraints, constraint, step);
+        terms.stiffness.push_back(constraint_stiffness(constraints, constraint, step));
         const ContactPotential potential =
-            contact_potential(constraints.distance[constraint], constraints.thickness[constraint], stiffness);
-        constraint_forces.push_back({.normal = potential.slope, .stiffness = stiffness});
+            contact_potential(constraints.distance[constraint], constraints.thickness[constraint], terms.stiffness.back());
+        constraint_forces.push_back({.normal = potential.slope, .stiffness = potential.curvature});
         CoupledBlock block{.vertex = constraints.vertex[constraint],
                            .weight = constraints.weight[constraint],
                            .k = {},
                            .constraint = static_cast<int>(constraint)};
         add_normal_block(block.k, step.dt * step.dt * potential.curvature, constraints.direction[constraint]);
         Vec3 force = potential.slope * constraints.direction[constraint];
-        const bool has_friction = step.friction && constraints.friction[constraint] * potential.slope > 0.0,
+        const bool has_friction = step.friction && constraints.friction[constraint] * potential.slope != 0.0,
                    on_obstacle = constraints.obstacle[constraint] >= 0;
         if (has_friction && !on_obstacle) {
             terms.cloth_friction_contacts.push_back(
@@ -204,9 +185,10 @@ void add_contact(const ContactConstraints& constraints, const ContactStep& step,
             force += friction_between_cloths(constraints, terms.cloth_friction_contacts.back(), step, block);
         }
         spread(constraints, constraint, force, forces);
-        terms.blocks.push_back(block);
+        // Without what is subtracted the matrix stays positive definite.
+        if (constraints.mollifier[constraint] > 0.0) terms.blocks.push_back(block);
         terms.energy += potential.energy;
-        terms.largest_stiffness = std::max(terms.largest_stiffness, stiffness);
+        terms.largest_stiffness = std::max(terms.largest_stiffness, potential.curvature);
         terms.obstacle_power += force.dot(constraints.obstacle_displacement[constraint]) * step.obstacle_rate;
         if (has_friction && on_obstacle)
             add_normal_force(constraints, constraint, potential.slope, step, terms.friction_contacts);
@@ -220,20 +202,20 @@ void PenaltyContact::evaluate(const ContactPoint& point, ContactForces forces) c
     forces.potential += forces.terms.energy;
 }
 
-void PenaltyContact::end(const ContactConstraints& constraints, const ContactTerms& terms,
-                         const std::vector<ConstraintForce>& constraint_forces, ContactWarmStart& warm_start) {
-    set_held(constraints, terms.cloth_friction_contacts, constraint_forces, warm_start.held);
+void PenaltyContact::end(const ContactConstraints& constraints, const ContactTerms& terms, const std::vector<ConstraintForce>&,
+                         ContactWarmStart& warm_start) {
+    anchors_.keep(constraints, terms.cloth_friction_contacts, warm_start.cloth_anchors);
 }
 
 ContactLoss PenaltyContact::loss(const ContactMove& move, double stored) const {
     PenaltyLoss loss;
-    for (const CoupledBlock& block : move.terms.blocks) {
-        if (block.constraint >= 0) add_constraint_loss(move, block, loss);
-    }
+    for (std::size_t constraint = 0; constraint < move.constraints.size(); ++constraint)
+        add_constraint_loss(move, constraint, loss);
     for (const FrictionContact& friction_contact : move.terms.friction_contacts.all)
         add_friction_contact_loss(move, friction_contact, loss);
     for (const ClothFrictionContact& cloth_contact : move.terms.cloth_friction_contacts)
-        add_friction_loss(cloth_contact.law, cloth_contact.slip, cloth_contact.moved, loss);
+        add_friction_loss(cloth_contact.law,
+                          {cloth_contact.slip, cloth_contact.moved, relative_move(move, cloth_contact.constraint)}, loss);
     return {.friction = loss.friction, .contact = stored - loss.stored_at_start, .integrator = loss.integrator};
 }
 

@@ -5,14 +5,12 @@
 
 namespace percale {
 
-/// Penalty springs with Coulomb friction. Adds the contact forces to `forces`, N; fills `terms` and the normal parts of
-/// `constraint_forces`. Between cloths the slip is that of one side relative to the other (ClothFrictionContact), and n.A n and
-/// the masses are those of both sides in series, 1/sum w^2/a.
-/// The stiffness of a constraint is half of the weighted sum of n.A n/dt^2 over its vertices, where A are the frozen diagonal
-/// blocks (with `stiffness_dt` for the masses unless the obstacle moves: a suddenly shorter step must not throw up the cloth that
-/// lies there). It is at least four times (weight or initial load on the constraint)/thickness, so that cloth rests at no less
-/// than 3/4 of the thickness. Friction with obstacles acts on vertices (friction.h), each with its part of all constraints with
-/// the same obstacle; the matrix leaves a sliding vertex free along its slip.
+/// Contact by a potential of the distance (potential.h, contact_stiffness.h) with Coulomb friction. Adds the contact forces to
+/// `forces`, N; fills `terms` and the normal parts of `constraint_forces`, with the curvature of the potential as their
+/// stiffness. Between cloths the slip is that of one side relative to the other (ClothFrictionContact). A constraint with a
+/// mollifier below 0 is subtracted: it has no matrix, which so stays positive definite. Friction with obstacles acts on vertices
+/// (friction.h), each with its part of all constraints with the same obstacle; the matrix leaves a sliding vertex free along its
+/// slip.
 void add_contact(const ContactConstraints& constraints, const ContactStep& step, const Vec3Arrays& positions, Vec3Arrays& forces,
                  ContactTerms& terms, std::vector<ConstraintForce>& constraint_forces);
 
@@ -30,6 +28,9 @@ public:
     /// The potential of a friction contact is CoulombLaw::potential. The excess of its slip over the threshold times the friction
     /// force is the friction loss.
     ContactLoss loss(const ContactMove& move, double stored) const override;
+
+private:
+    AnchorKeeper anchors_;
 };
 
 }  // namespace percale

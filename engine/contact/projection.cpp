@@ -67,11 +67,11 @@ struct ConstraintRange {
     double distance = 0.0, target = 0.0, activation_distance = 0.0;
 };
 
-/// The force beside the multiplier: k (target - d), but as 1/d below half of the target (contact_potential), as a motion that
+/// The force beside the multiplier: k (target - d), but as 1/d below half of the target (spring_potential), as a motion that
 /// only multipliers can stop must not reach d = 0 first, and so steep beyond the target that the constraint's force ends before
 /// the activation distance.
 ContactPotential constraint_spring(const ConstraintRange& range, double multiplier, double stiffness) {
-    if (range.distance < range.target) return contact_potential(range.distance, range.target, stiffness);
+    if (range.distance < range.target) return spring_potential(range.distance, range.target, stiffness);
     const double depth = range.target - range.distance;
     const double steep =
         std::max(stiffness, multiplier / (multiplier_activation_ratio * (range.activation_distance - range.target)));

@@ -1,12 +1,13 @@
 #include "trial_contacts.h"
 
+#include <algorithm>
+
 namespace percale {
 namespace {
 
-/// The distance at which a constraint begins to push; below half the thickness its force is no longer linear.
+/// The distance at which the tangent of a constraint's force is 0.
 double activation_distance_of(const ContactConstraints& constraints, std::size_t constraint, const ConstraintForce& force) {
-    const bool linear = constraints.distance[constraint] >= 0.5 * constraints.thickness[constraint];
-    return linear ? constraints.distance[constraint] + force.normal / force.stiffness : constraints.thickness[constraint];
+    return std::min(constraints.thickness[constraint], constraints.distance[constraint] + force.normal / force.stiffness);
 }
 
 }  // namespace
@@ -37,8 +38,8 @@ double find_trial_contacts(const std::vector<CoupledBlock>& blocks_at_start, con
             distance += block.weight[k] * n.dot(move.start.at(block.vertex[k]));
             opening += block.weight[k] * n.dot(move.direction.at(block.vertex[k]));
         }
+        if (distance < constraints.thickness[constraint]) continue;
         const double apart = distance - activation_distance_of(constraints, constraint, force);
-        if (apart < 0.0) continue;
         slope -= weighted * force.normal * opening;
         add_normal_block(block.k, weighted * h * force.stiffness, n);
         found.blocks.push_back(block);

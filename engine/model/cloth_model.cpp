@@ -1,6 +1,7 @@
 #include "cloth_model.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "mesh/lumped_mass.h"
 #include "mesh/topology.h"
@@ -68,10 +69,12 @@ void append_cloth(ClothModel& model, const TriangleMesh& mesh, const Fabric& fab
     if (shape.said()) range.shape = std::make_shared<const RestShape>(shape);
     for (const double mass : lumped_masses(mesh, fabric.area_density, shape)) {
         model.mass.push_back(mass);
+        model.length.push_back(std::sqrt(mass / fabric.area_density));
         range.mass += mass;
     }
     model.rest.insert(model.rest.end(), mesh.vertices.begin(), mesh.vertices.end());
     model.thickness.resize(model.mass.size(), fabric.thickness);
+    model.modulus.resize(model.mass.size(), fabric.modulus());
     for (const auto& [a, b, c] : mesh.triangles) model.triangles.push_back({first + a, first + b, first + c});
     model.cloths.push_back(range);
 }
@@ -84,6 +87,7 @@ void order_last_cloth(ClothModel& model) {
                                springs_at_vertices(model.springs, first_spring, cloth.first, cloth.count));
     renumber_springs(model.springs, first_spring, cloth.first, cloth.order);
     put_in_order(cloth, model.mass);
+    put_in_order(cloth, model.length);
     put_in_order(cloth, model.rest);
     const auto renumber = [&](Triangle& t) {
         if (t[0] < cloth.first) return;

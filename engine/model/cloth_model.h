@@ -48,6 +48,8 @@ struct ClothModel {
     std::vector<ClothRange> cloths;
     std::vector<double> mass;         // kg, one a vertex
     std::vector<double> thickness;    // m, one a vertex
+    std::vector<double> modulus;      // N/m, one a vertex: the larger one of warp and weft
+    std::vector<double> length;       // m, one a vertex: root of its area
     std::vector<Vec3> rest;           // m, positions of the meshes; without strain unless a rest shape says otherwise
     std::vector<Triangle> triangles;  // in the user's order, whatever the order of the vertices
     SpringNetwork springs;

@@ -12,13 +12,14 @@ namespace {
 /// s. Damping time of the shipped fabrics, which was not measured. Larger: cloth moves as in oil. 0: oscillations do not decay.
 constexpr double preset_damping_time = 2e-3;
 
+constexpr double standard_gravity = 9.80665;  // m/s^2
+
 constexpr std::string_view typical =
     "typical of its kind, not one cloth: mass and bending length in the range of ASTM D1388 tables, B = mass * g * length^3; "
     "stretch and shear in the range of Kawabata (KES-F) tables at small strain";
 constexpr std::string_view measured =
     "measured: Wang, O'Brien and Ramamoorthi, Data-driven elastic models for cloth, ACM Transactions on Graphics 30(4), 2011; "
     "moduli at small strain, mean bending; their coupling of warp and weft is left out, which leaves them positive definite";
-constexpr double standard_gravity = 9.80665;  // m/s^2
 
 struct Moduli {
     double warp, weft, shear;  // N/m

@@ -28,7 +28,6 @@ struct ImplicitStage {
     const Vec3Arrays& targets;                              // m, of prescribed vertices at its end
     StepFraction substep = {};                              // of the whole step
     double contact_weight = 1.0;                            // factor of contact forces in M (v - v*) = h (f + weight contact)
-    double contact_dt = 0.0;                                // s, ContactStep::stiffness_dt
     std::span<const ObstacleMotion> obstacle_motions = {};  // of each obstacle that moves; those beyond the list are at rest
     const StepWind* wind = nullptr;                         // null: no air
     std::span<const double> rest_length = {};               // m, ClothState::rest_length at the stage's time
@@ -51,17 +50,17 @@ struct StagePoint {
     double objective = 0.0;                          // J: 1/2 |v - v*|_M^2 + potential; r is its gradient by v
 };
 
-/// Forces without contact and their diagonal blocks at the first evaluation of a stage, by which contact sets its stiffness.
+/// Diagonal blocks of the elastic step matrix at the first evaluation of a stage, by which projection sets its stiffness.
 struct FrozenForces {
     DiagonalBlocks diagonal;  // kg
     AlignedVector<float> inverse;
-    Vec3Arrays load;  // N
 };
 
 /// What the equations of a stage are made from, beside its points.
 struct StageSpace {
     StepSprings springs;
     FrictionStart friction;
+    ClothAnchors cloth_anchors;  // of friction
     FrozenForces frozen;
     PenaltyContact penalty;
     ProjectedContact projection;

@@ -40,6 +40,10 @@ constexpr double longest_secant_step = 3.0, min_secant_fall = 0.1;
 /// found in vain.
 constexpr double trial_slope_ratio = 0.5;
 
+/// Fraction of newton_error_ratio: a line that was cut is the solution only where its whole direction changes so little. 0: taut
+/// cloth, some of which turns between sticking and sliding, takes hundreds of iterations. 1: cloth at rest may tremble.
+constexpr double tiny_ratio = 0.1;
+
 /// Relative. Smaller moves are rounding of positions (a few units in the last place of a double).
 constexpr double position_rounding = 1e-15;
 
@@ -58,7 +62,7 @@ public:
 
     LineResult search() {
         equations_.move(current_, task_.direction, 1.0, trial_);
-        result_.small = mark_small();
+        mark_small();
         const bool rounding = result_.small && was_arrived_ && moves_nothing();
         begin();
         double fraction = 1.0, kept = 1.0;
@@ -85,12 +89,16 @@ public:
 private:
     double slope_at(const StagePoint& point) const { return dot(stage_.scene.compute, point.residual, task_.direction); }
 
-    /// Marks the bodies that the direction changes by little; true: all of them.
-    bool mark_small() {
+    /// Marks the bodies that the whole direction, to trial_, changes by little.
+    void mark_small() {
+        const ClothModel& model = stage_.scene.model;
         const NewtonChange change{current_.residual, task_.direction, trial_.velocities, current_.constraints.size() > 0};
         const double error_ratio = allowed_error_ratio(stage_.scene.settings);
-        return task_.bodies.mark(stage_.scene.model,
-                                 [&](const Body& body) { return change_is_small(task_.error, change, error_ratio, body); });
+        const auto is_small = [&](double ratio) {
+            return [&, ratio](const Body& body) { return change_is_small(task_.error, change, ratio * error_ratio, body); };
+        };
+        result_.small = task_.bodies.mark(model, is_small(1.0));
+        result_.tiny = result_.small && was_arrived_ && task_.bodies.all_small(model, is_small(tiny_ratio));
     }
 
     /// Whether the whole direction moves no vertex by more than the rounding of positions: the residual is then rounding, too.

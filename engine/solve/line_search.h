@@ -41,6 +41,7 @@ struct LineTask {
 
 struct LineResult {
     bool small = false;         // the whole direction changes each unsettled body by newton_error_ratio of its time error at most
+    bool tiny = false;          // a tenth of that, with pins and obstacles already in place
     bool full_step = false;     // the whole direction was taken, with pins and obstacles already in place
     bool stuck = false;         // the decrease predicted along it, or the move, is at the level of rounding: counts as converged
     bool went_on = false;       // a step prolonged by the secant was evaluated, accepted or not

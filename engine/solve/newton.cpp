@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "contact/contact_stiffness.h"
 #include "direction.h"
 #include "line_search.h"
 #include "local_subsets.h"
@@ -26,6 +27,10 @@ constexpr double estimate_safety = 0.4;
 /// Newton iterations of a solve after which the nonlinear elimination of local subsets begins. Fewer: solves that soon end pay
 /// for it. More: layers that slide on each other take two to three times as many.
 constexpr int iterations_before_subsets = 8;
+
+/// Halvings of a prediction that leads so far into contact that the objective rises. Fewer: Newton begins so high that it may
+/// stop before it has come down to the energy at the start, and cloth that falls slowly is thrown off.
+constexpr int max_prediction_halvings = 10;
 
 /// Rounds of contact multipliers in one stage. Fewer: projected contact is left inexact.
 constexpr int max_contact_rounds = 6;
@@ -63,6 +68,10 @@ public:
     NewtonReport run() {
         equations_.begin(current_, space_.trial, space_.direction.velocity);
         equations_.evaluate(current_, nullptr);
+        for (int n = 0; n < max_prediction_halvings && equations_.starts_too_high(current_, space_.trial); ++n) {
+            equations_.halve_prediction(space_.trial, current_);
+            equations_.evaluate(current_, nullptr);
+        }
         bool solved = find_motion();
         for (int round = 0; solved && round < max_contact_rounds && correct_contact(); ++round) solved = find_motion();
         if (!solved) report_.end = end_of_search();
@@ -197,11 +206,25 @@ private:
                                        [&](const Body& body) { return change_is_small(error_, change, error_ratio, body); });
     }
 
-    /// Whether the line just searched ended at the solution: it changed little, but not in the first iteration, whose matrix may
-    /// be far off; or it can gain nothing but rounding. It may be the solution for some bodies while others go on.
+    /// Whether the line just searched changed the contact forces on no body by much. space_.trial is where it began.
+    bool contact_is_settled() const {
+        if (!scene_.plan.contacts) return true;
+        const double gravity = contact_gravity(settings_.gravity);
+        auto& [before, now] = space_.contact_accelerations;
+        contact_accelerations(scene_.model, space_.trial, before);
+        contact_accelerations(scene_.model, current_, now);
+        for (std::size_t b = 0; b < now.size(); ++b) {
+            if (!space_.bodies.settled(b) && !percale::contact_is_settled(before[b], now[b], gravity)) return false;
+        }
+        return true;
+    }
+
+    /// Whether the line just searched ended at the solution: it changed little, and contact forces, too, but not in the first
+    /// iteration, whose matrix may be far off; or it can gain nothing but rounding. Of a line that was cut the whole direction
+    /// has to be far smaller. It may be the solution for some bodies while others go on.
     bool is_solution(const LineResult& line) {
-        const bool may_settle =
-            line.full_step && !line.went_on && space_.direction.exact && !by_residual() && report_.newton_iterations > 1;
+        const bool may_settle = (line.full_step || line.tiny) && !line.went_on && space_.direction.exact && !by_residual() &&
+                                report_.newton_iterations > 1 && contact_is_settled();
         if (may_settle) space_.bodies.settle_small();
         return (may_settle && line.small) || line.stuck;
     }

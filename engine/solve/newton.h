@@ -45,6 +45,7 @@ struct NewtonSpace {
     Direction direction, direction_with_trials;             // from it, without and with trial contacts
     TrialContacts trial_contacts;                           // of the last move that a line search rejected
     BodyStates bodies;                                      // in the rounds of contact correction
+    std::vector<double> contact_accelerations[2];           // m/s^2, of each body before and after a line
     SubsetSpace subsets;                                    // of the last iteration that looked for one
     int iterations_left = std::numeric_limits<int>::max();  // of StepSettings::work_limit, for one stage
     TimeBudget time;                                        // the rest of the step's
@@ -54,8 +55,8 @@ struct NewtonSpace {
 /// solver (conjugate gradient or a factorisation) and a line search; every move is clamped to what the detector proves free of
 /// crossing. Stops by settings.newton_tolerance, or (auto) when the change by the last iteration, dt sqrt(-r . dv / m) in metres
 /// with the mass m of the cloth, is at most newton_error_ratio of the stage's time error plus a floor in every cloth, and
-/// likewise at its worst vertex (change_is_small), or when a line search is stuck. space.current keeps forces and contacts of the
-/// end.
+/// likewise at its worst vertex (change_is_small), and contact forces have settled (contact_is_settled), or when a line search is
+/// stuck. space.current keeps forces and contacts of the end.
 NewtonReport solve_stage(const ImplicitStage& stage, NewtonSpace& space, StageEnd end, StageTimes& times);
 
 }  // namespace percale

@@ -18,9 +18,17 @@ constexpr double thickness_over_smallest_change = 5e4;
 /// Fraction of an adaptive stage's allowance below which a change means nothing.
 constexpr double negligible_allowance_ratio = 0.1;
 
-/// How much more a cloth's worst vertex may change than its mean: a factor of its allowed ratio to the time error, and one of
-/// the smallest meaningful change.
-constexpr double worst_vertex_factor = 2.0, worst_vertex_floor_factor = 10.0;
+/// How much more a cloth's worst vertex may change than its mean without contact, over its own time error. In contact 1: where it
+/// may be wrong by more than it changes, it trembles for ever.
+constexpr double worst_vertex_factor = 4.0;
+
+/// How much larger the smallest meaningful change of a cloth's worst vertex is than that of its mean.
+constexpr double worst_vertex_floor_factor = 10.0;
+
+/// How much the contact forces on a body may change over a line at whose end it is solved: by this factor and by this fraction of
+/// its weight. Larger: as the force of contact is not linear, Newton halves a force that is far too large from line to line, and
+/// would stop there: friction holds what should slide, and surfaces that move throw cloth off. Smaller: more iterations.
+constexpr double settled_force_ratio = 1.5, negligible_weight_ratio = 0.05;
 
 /// Accuracy of the linear solve, relative in the energy norm. Larger: more Newton iterations. Smaller: each is more expensive.
 constexpr double linear_energy_accuracy = 0.2;
@@ -82,6 +90,7 @@ bool change_is_small(const TimeError& error, const NewtonChange& change, double 
     const ClothModel& model = *error.model;
     const auto first = model.cloths.begin() + cloth_of(model, body.first);
     const auto last = model.cloths.begin() + cloth_of(model, body.first + body.count - 1);
+    const double worst_ratio = (change.in_contact ? 1.0 : worst_vertex_factor) * error_ratio;
     return std::all_of(first, last + 1, [&](const ClothRange& cloth) {
         const Vec3Arrays &residual = change.residual, &direction = change.direction;
         const double gain = -sum_terms(*error.compute, cloth.first, cloth.count, [&](int i) {
@@ -98,8 +107,25 @@ bool change_is_small(const TimeError& error, const NewtonChange& change, double 
         const double floor = std::min(min, negligible_allowance_ratio * error.allowance);
         return moved <= error_ratio * time_error + floor &&
                error.dt * std::sqrt(worst) <=
-                   worst_vertex_factor * error_ratio * error.dt * std::sqrt(worst_error) + worst_vertex_floor_factor * floor;
+                   worst_ratio * 0.5 * error.dt * std::sqrt(worst_error) + worst_vertex_floor_factor * floor;
     });
+}
+
+void contact_accelerations(const ClothModel& model, const StagePoint& point, std::vector<double>& accelerations) {
+    accelerations.assign(model.bodies.size(), 0.0);
+    const ContactConstraints& constraints = point.constraints;
+    for (std::size_t constraint = 0; constraint < constraints.size(); ++constraint) {
+        for (int k = 0; k < 4 && constraints.vertex[constraint][k] >= 0; ++k) {
+            const int i = constraints.vertex[constraint][k];
+            const double force = constraints.weight[constraint][k] * point.constraint_forces[constraint].normal;
+            accelerations[body_of(model.bodies, i)] += force * force / model.mass[i];
+        }
+    }
+    for (std::size_t b = 0; b < accelerations.size(); ++b) accelerations[b] = std::sqrt(accelerations[b] / model.bodies[b].mass);
+}
+
+bool contact_is_settled(double before, double now, double gravity) {
+    return std::max(before, now) <= settled_force_ratio * std::min(before, now) + negligible_weight_ratio * gravity;
 }
 
 double time_error(const TimeError& error, const Vec3Arrays& velocities) {

@@ -41,10 +41,16 @@ struct NewtonChange {
 
 /// Whether the direction changes every cloth of a body, of the mass m, by little in the mean and at its worst vertex:
 ///     dt sqrt(-r . dv/m) <= error_ratio dt/2 |v - v_n|_M/sqrt(m) + floor,
-///     dt max|dv| <= 2 error_ratio dt max|v - v_n| + 10 floor,
+///     dt max|dv| <= error_ratio dt/2 max|v - v_n| + 10 floor in contact, without 4 times the first term,
 /// |v - v_n| replaced by extrapolated_error_ratio |v - extrapolated| where that is less. The floor, m, is 2e-5 of the thickness
 /// (in contact 2e-4), or a tenth of the allowance if that is less.
 bool change_is_small(const TimeError& error, const NewtonChange& change, double error_ratio, const Body& body);
+
+/// The accelerations of each body by its contact forces, m/s^2, RMS by mass: sqrt(sum (w N)^2/m_i / m).
+void contact_accelerations(const ClothModel& model, const StagePoint& point, std::vector<double>& accelerations);
+/// Whether such an acceleration before and after a line has settled: it changed by less than a factor of 1.5, or by a twentieth
+/// of gravity.
+bool contact_is_settled(double before, double now, double gravity);
 
 /// The time error itself, m: the mass-weighted RMS of the cloth where it is largest.
 double time_error(const TimeError& error, const Vec3Arrays& velocities);

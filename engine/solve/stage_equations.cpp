@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/contact_stiffness.h"
 #include "support/stage_timer.h"
 
 namespace percale {
@@ -30,14 +31,16 @@ StageEquations::StageEquations(const ImplicitStage& stage, const ContactWarmStar
       matrix_(matrix),
       times_(times),
       law_(space.law(stage.scene.settings.contact_response)),
-      contact_dt_(stage.base.h * std::sqrt(stage.contact_weight)) {
+      contact_dt_(stage.base.h * std::sqrt(stage.contact_weight)),
+      start_energy_(warm_start.energy) {
     const StepScene& scene = stage.scene;
     if (scene.plan.contacts) law_.begin(warm_start);
+    space.cloth_anchors.set(warm_start.cloth_anchors);
     space.friction = {.positions = &stage.start.positions,
                       .fraction = stage.substep.from,
                       .stick_anchors = stage.start.stick_anchors,
                       .obstacle_motions = stage.obstacle_motions,
-                      .held = &warm_start.held};
+                      .cloth_anchors = &space.cloth_anchors};
     set_step_springs(
         scene.compute,
         {scene.model.adjacency, stage.start.positions, scene.plan.damping, stage.base.h, stage.rest_length, &scene.model.springs},
@@ -78,6 +81,26 @@ void StageEquations::begin(StagePoint& point, StagePoint& trial, Vec3Arrays& dir
     }
     clamp(point, trial);
     std::swap(point, trial);
+}
+
+bool StageEquations::starts_too_high(const StagePoint& point, const StagePoint& start) const {
+    if (!stage_.scene.plan.contacts || !stage_.options.predict || stage_.projects() || stage_.moves_are_scripted()) return false;
+    const double stored = stage_.contact_weight * (point.contact.energy - start_energy_);
+    return stored > 0.0 && stored > inertia(start) - inertia(point);
+}
+
+void StageEquations::halve_prediction(const StagePoint& start, StagePoint& point) const {
+    set_each(stage_.scene.compute, start.velocities, point.velocities, point.velocities,
+             [](double from, double to) { return 0.5 * (from + to); });
+    place(point);
+}
+
+/// J, 1/2 |v - v*|_M^2.
+double StageEquations::inertia(const StagePoint& point) const {
+    const StepScene& scene = stage_.scene;
+    return 0.5 * sum_terms(scene.compute, 0, scene.model.vertex_count(), [&](int i) {
+               return scene.script.free[i] * scene.model.mass[i] * square_between(point.velocities, stage_.base.velocities, i);
+           });
 }
 
 void StageEquations::move(const StagePoint& from, const Vec3Arrays& direction, double factor, StagePoint& to) const {
@@ -136,10 +159,10 @@ void StageEquations::evaluate(StagePoint& point, const StagePoint* accepted) {
     set_residual(point);
 }
 
-/// Sets the stiffness of contact by the forces without it.
+/// Sets what projection takes from the first evaluation.
 void StageEquations::freeze(const StagePoint& point) {
+    if (!stage_.projects()) return;
     fill_diagonal(matrix_, point.forces.spring_terms, space_.frozen.diagonal, space_.frozen.inverse);
-    space_.frozen.load = point.forces.total;
     law_.set_constraints(point.constraints);
 }
 
@@ -157,13 +180,13 @@ ContactPoint StageEquations::contact_point(const StagePoint& point, const StageP
             .positions = point.positions,
             .velocities = point.velocities,
             .step = {.dt = contact_dt_,
-                     .stiffness_dt = stage_.contact_dt,
                      .obstacle_rate = 1.0 / scene.settings.time_step,
                      .fraction = point.fraction,
-                     .gravity = scene.settings.gravity,
                      .mass = &scene.model.mass,
+                     .gravity = contact_gravity(scene.settings.gravity),
+                     .modulus = &scene.model.modulus,
+                     .length = &scene.model.length,
                      .diagonal = &space_.frozen.diagonal,
-                     .load = &space_.frozen.load,
                      .friction = &space_.friction,
                      .previous = accepted ? &accepted->contact.friction_contacts : nullptr},
             .obstacles_moved = point.fraction - stage_.substep.from};
@@ -182,7 +205,9 @@ bool StageEquations::correct_contact(StagePoint& point, double enough) {
 }
 
 void StageEquations::end_contact(const StagePoint& point, ContactWarmStart& warm_start) const {
-    if (stage_.scene.plan.contacts) law_.end(point.constraints, point.contact, point.constraint_forces, warm_start);
+    if (!stage_.scene.plan.contacts) return;
+    law_.end(point.constraints, point.contact, point.constraint_forces, warm_start);
+    warm_start.energy = point.contact.energy;
 }
 
 void StageEquations::set_residual(StagePoint& point) const {

@@ -24,8 +24,14 @@ public:
     /// Shortens a move to what the detector proves free of crossing; returns the fraction of it that was kept.
     double clamp(const StagePoint& from, StagePoint& to);
 
+    /// Whether a first point has more energy, contact's and of inertia, than the start of the stage, `start`; of scenes in which
+    /// nothing moves by itself, as obstacles and pins do work.
+    bool starts_too_high(const StagePoint& point, const StagePoint& start) const;
+    /// Moves a point half of the way back to the start.
+    void halve_prediction(const StagePoint& start, StagePoint& point) const;
+
     /// Computes all forces at a point, its residual and its objective. `accepted`: the last accepted point; null: this is the
-    /// first evaluation of the stage, by which contact sets its stiffness.
+    /// first evaluation of the stage, by which projection sets its stiffness.
     void evaluate(StagePoint& point, const StagePoint* accepted);
 
     /// The motion is solved at a point: contact updates what it holds fixed, and the forces there; false if nothing is left to
@@ -47,6 +53,7 @@ private:
     void set_start(StagePoint& point) const;
     void set_prediction(StagePoint& start, Vec3Arrays& direction) const;
     void place(StagePoint& point) const;
+    double inertia(const StagePoint& point) const;
     void add_contact(StagePoint& point, const StagePoint* accepted);
     void freeze(const StagePoint& point);
     void set_residual(StagePoint& point) const;
@@ -59,6 +66,7 @@ private:
     StageTimes& times_;
     ContactLaw& law_;
     double contact_dt_ = 0.0;         // s, for which weighted contact has the form of a step's contact
+    double start_energy_ = 0.0;       // J, of contact at the start of the stage
     double smallest_fraction_ = 1.0;  // of all moves
     double largest_stiffness_ = 0.0;  // N/m, of contact
 };

@@ -21,8 +21,9 @@ struct SavedObstacle {
 
 /// Contact forces by constraint, in the order of their keys.
 struct SavedContact {
-    std::vector<KeyedForce> last, lasting, held;
-    double min_distance = 0.0;
+    std::vector<KeyedForce> last, lasting;
+    std::vector<ClothAnchor> cloth_anchors;
+    double energy = 0.0, min_distance = 0.0;
 };
 
 /// All of a world except its model, its settings, and what each step makes anew.
@@ -101,7 +102,7 @@ void exchange(Archive& archive, Value& rest) {
 
 template <class Archive, OfType<RestState> Value>
 void exchange(Archive& archive, Value& rest) {
-    archive(rest.cloths, rest.anchor, rest.potential, rest.unrest, rest.stopping, rest.asleep, rest.figures);
+    archive(rest.cloths, rest.anchor, rest.potential, rest.asleep, rest.figures);
 }
 
 template <class Archive, OfType<SchemeHistory> Value>
@@ -111,7 +112,7 @@ void exchange(Archive& archive, Value& past) {
 
 template <class Archive, OfType<StepState> Value>
 void exchange(Archive& archive, Value& state) {
-    archive(state.cloth, state.past, state.contact_energy, state.contact_dt, state.time, state.time_error);
+    archive(state.cloth, state.past, state.contact_energy, state.time, state.time_error);
     archive(state.control.length, state.control.left, state.control.error_ratio_before, state.control.just_rejected);
 }
 
@@ -120,9 +121,14 @@ void exchange(Archive& archive, Value& row) {
     archive(row.key.vertex, row.key.obstacle, row.key.feature, row.force.normal, row.force.friction, row.force.stiffness);
 }
 
+template <class Archive, OfType<ClothAnchor> Value>
+void exchange(Archive& archive, Value& anchor) {
+    archive(anchor.vertex, anchor.weight, anchor.normal, anchor.stretch);
+}
+
 template <class Archive, OfType<SavedContact> Value>
 void exchange(Archive& archive, Value& contact) {
-    archive(contact.last, contact.lasting, contact.held, contact.min_distance);
+    archive(contact.last, contact.lasting, contact.cloth_anchors, contact.energy, contact.min_distance);
 }
 
 template <class Archive, OfType<StartMove> Value>

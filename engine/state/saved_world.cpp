@@ -30,7 +30,7 @@ SavedWorld state_of(const World& world, SavedSize& size) {
     saved.settings = scene.settings;
     saved.state = world.state;
     const ContactWarmStart& contact = world.state.contact;
-    saved.contact = {contact.last.all(), contact.lasting.all(), contact.held.all(), contact.min_distance};
+    saved.contact = {contact.last.all(), contact.lasting.all(), contact.cloth_anchors, contact.energy, contact.min_distance};
     saved.free = scene.script.free;
     saved.pin_targets = scene.script.pin_targets;
     for (const ObstacleState& o : scene.script.obstacles) {
@@ -82,7 +82,7 @@ private:
         settings.wind = saved_.settings.wind;
         check_options(settings, "saved state");
         const StepState& state = saved_.state;
-        for (const double number : {state.time, state.time_error, state.contact_energy, state.contact_dt}) {
+        for (const double number : {state.time, state.time_error, state.contact_energy, saved_.contact.energy}) {
             reader_.demand(std::isfinite(number), "a time or energy that is not finite");
         }
     }
@@ -109,6 +109,14 @@ private:
             const bool known =
                 there(stick_anchor.vertex, world_.scene.model.mass.size()) && there(stick_anchor.obstacle, obstacles);
             reader_.demand(known && stick_anchor.stretch.allFinite(), "a stick anchor on nothing");
+        }
+        for (const ClothAnchor& anchor : saved_.contact.cloth_anchors) {
+            bool known = anchor.vertex[0] >= 0 && anchor.vertex[1] >= 0;
+            for (const int vertex : anchor.vertex)
+                known = known && (vertex == -1 || there(vertex, world_.scene.model.mass.size()));
+            for (const double weight : anchor.weight) known = known && std::isfinite(weight);
+            reader_.demand(known && anchor.normal.allFinite() && anchor.stretch.allFinite(),
+                           "an anchor between cloths on nothing");
         }
         for (const Impact& impact : saved_.state.cloth.impacts) {
             const bool known = there(impact.vertex, world_.scene.model.mass.size()) &&
@@ -173,7 +181,7 @@ private:
         const auto& [first, in_use] = saved_.solver;
         reader_.demand(first != LinearSolver::automatic && in_use != LinearSolver::automatic, "a linear solver that is none");
         reader_.demand(saved_.contact.min_distance >= 0.0 && saved_.contact.min_distance <= 1.0, "a distance out of range");
-        for (const auto* forces : {&saved_.contact.last, &saved_.contact.lasting, &saved_.contact.held}) {
+        for (const auto* forces : {&saved_.contact.last, &saved_.contact.lasting}) {
             const auto twice = std::ranges::adjacent_find(*forces, std::ranges::greater_equal{}, &KeyedForce::key);
             reader_.demand(twice == forces->end(), "a contact force twice");
         }
@@ -182,7 +190,6 @@ private:
     void check_rest() const {
         const RestState& rest = saved_.rest;
         reader_.demand(fits_or_empty(rest.anchor), "a wrong number of vertices");
-        reader_.demand(rest.unrest >= 0 && rest.unrest <= max_unrest && rest.stopping <= stopping_time, "unrest out of range");
         reader_.demand(rest.cloths.empty() || (rest.cloths.size() == world_.scene.model.cloths.size() && fits(rest.anchor)),
                        "a wrong number of cloths");
     }
@@ -264,7 +271,8 @@ void put_state(SavedWorld& saved, World& world) {
     update_points(world.state.cloth);
     world.state.contact.last.set(saved.contact.last);
     world.state.contact.lasting.set(saved.contact.lasting);
-    world.state.contact.held.set(saved.contact.held);
+    world.state.contact.cloth_anchors = saved.contact.cloth_anchors;
+    world.state.contact.energy = saved.contact.energy;
     world.state.contact.min_distance = saved.contact.min_distance;
     world.rest = std::move(saved.rest);
     world.load_source = saved.loads.known ? LoadSource::saved_state : LoadSource::nowhere;

@@ -67,6 +67,8 @@ void fall_asleep(ClothState& cloth, RestState& rest, StepReport& last) {
     rest.figures.contact_hash = last.contact_hash;
     rest.figures.smallest_distance = last.smallest_distance;
     rest.figures.contact_stiffness = last.contact_stiffness;
+    rest.figures.pinched = last.pinched;
+    rest.figures.yielded = last.yielded;
     rest.figures.largest_strain = last.largest_strain;
     rest.figures.largest_speed = last.largest_speed;
     rest.figures.energy = last.energy;
@@ -99,8 +101,6 @@ void wake(RestState& rest) {
     rest.cloths.clear();
     rest.anchor.resize(0);
     rest.potential.reset();
-    rest.unrest = 0;
-    rest.stopping = 0.0;
     rest.asleep = false;
 }
 

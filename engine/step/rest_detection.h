@@ -19,8 +19,6 @@ struct RestState {
     std::vector<ClothRest> cloths;
     Vec3Arrays anchor;                // m, where each vertex was when its cloth became still
     std::optional<double> potential;  // J, after the last step (damp_kinetic_energy)
-    int unrest = 0;                   // counts rises of the potential in the last steps (unrest_of_rise)
-    double stopping = 0.0;            // s, for how long each step still stops cloth
     bool asleep = false;              // all cloths: steps are not solved
     StepReport figures;               // of the last step that was solved
 };

@@ -23,10 +23,6 @@ namespace {
 /// alone, but for the last: a surface too fast for it fails the step.
 constexpr int compliant_parts[] = {4, 16, 64};
 
-/// s per second: how fast the time step that sets the contact stiffness may become shorter. Stiffness goes as 1/dt^2, and a
-/// stiffer contact stores energy that no work has supplied; slowly against its own period, 2 pi sqrt(2) dt, it stores none.
-constexpr double fastest_contact_shortening = 0.05;
-
 /// Newton iterations of a step whose time is up in which pins and obstacles have to arrive, or the step fails. Smaller: steps
 /// fail that would have arrived. Larger: those that do not arrive delay their host for longer.
 constexpr int max_late_iterations = 20;
@@ -45,15 +41,13 @@ void advance_time(double time_step, StepState& state) {
     state.time = sum;
 }
 
-/// Renews an outdated plan and sets what moves in this step. contact_dt, which sets the stiffness of contact, grows at once with
-/// the time step and falls gradually. Returns the work of added and removed pins, of welds and of strain limits, J.
+/// Renews an outdated plan and sets what moves in this step. Returns the work of added and removed pins, of welds and of strain
+/// limits, J.
 double plan_step(World& world) {
     StepScene& scene = world.scene;
     const double pins = world.plan_outdated ? renew_plan(scene, world.state.cloth) : 0.0;
     world.plan_outdated = false;
     set_motion_of_step(scene, world.state.cloth, world.state.time);
-    const double dt = scene.settings.time_step;
-    if (scene.plan.solve) world.state.contact_dt = std::max(dt, world.state.contact_dt - fastest_contact_shortening * dt);
     return pins + tighten_holds(world);
 }
 

@@ -55,7 +55,7 @@ public:
     ImpactEnergy run() {
         set_order_of_distance(constraints_, space_.order);
         space_.found.clear();
-        space_.thrown.clear();
+        space_.jumps.clear();
         for (const std::size_t constraint : space_.order) settle(constraint);
         keep_what_matters();
         return flows_;
@@ -112,6 +112,13 @@ private:
         }
     }
 
+    void note_jump(std::size_t constraint) {
+        for (int k = 0; k < 4 && constraints_.vertex[constraint][k] >= 0; ++k) {
+            space_.jumps.push_back(
+                {constraints_.vertex[constraint][k], constraints_.obstacle[constraint], constraints_.direction[constraint]});
+        }
+    }
+
     /// By how much a constraint's vertices leave faster than they should, m/s; below 0: slower.
     double excess(std::size_t constraint, const ConstraintMotion& motion, double given) {
         const double slow =
@@ -126,14 +133,11 @@ private:
             return 0.0;
         }
         remember(constraint, fading_ * impact.speed, true);
+        if (!impact.stopped) note_jump(constraint);
         const double share = restitution(constraint);
         const double of_contact = std::max(0.0, std::min(motion.ends, given));
         if (share == 0.0) return std::max(max, of_contact);
         if (impact.stopped) return of_contact;
-        for (int k = 0; k < 4 && constraints_.vertex[constraint][k] >= 0; ++k) {
-            space_.thrown.push_back(
-                {constraints_.vertex[constraint][k], constraints_.obstacle[constraint], constraints_.direction[constraint]});
-        }
         return motion.ends - share * impact.speed;
     }
 

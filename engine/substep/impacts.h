@@ -21,8 +21,8 @@ struct StageMove {
     double weight = 1.0;
 };
 
-/// A vertex whose velocity has jumped.
-struct ThrownVertex {
+/// A vertex whose velocity has jumped: an impact stopped it.
+struct VelocityJump {
     int vertex = -1, obstacle = -1;
     Vec3 direction = Vec3::Zero();  // unit
 };
@@ -31,7 +31,7 @@ struct ThrownVertex {
 struct ImpactSpace {
     std::vector<std::size_t> order;  // of constraints
     std::vector<Impact> found;
-    std::vector<ThrownVertex> thrown;  // by the last settling
+    std::vector<VelocityJump> jumps;  // by the last settling
 };
 
 /// Changes of energy by settling, J.

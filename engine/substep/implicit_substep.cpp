@@ -76,7 +76,6 @@ private:
                                   .targets = work_.targets,
                                   .substep = part.fraction,
                                   .contact_weight = part.contact_weight,
-                                  .contact_dt = start_.contact_dt,
                                   .obstacle_motions = work_.obstacle_motions,
                                   .wind = set_wind_at(scene_, part.from.positions, work_),
                                   .rest_length = rest_lengths_at(substep_, seam_place_, start_, work_.rest_length)};
@@ -251,11 +250,11 @@ private:
     /// A velocity that has jumped is not extrapolated from its value before.
     void stop_at_jumps(const ClothState& from) {
         if (!scene_.plan.contacts) return;
-        for (const auto& [vertex, obstacle, direction] : work_.impacts.thrown) {
+        for (const auto& [vertex, obstacle, direction] : work_.impacts.jumps) {
             const Vec3 beyond = work_.base.velocities.at(vertex) - from.velocities.at(vertex);
             const Vec3 change = -direction.dot(beyond) * direction;
             work_.base.velocities.add(vertex, change);
-            if (end_.impulses.empty() || !scene_.is_free(vertex)) continue;
+            if (obstacle < 0 || end_.impulses.empty() || !scene_.is_free(vertex)) continue;
             end_.impulses[obstacle].take(from.positions.at(vertex), scene_.model.mass[vertex] * change);
         }
     }

@@ -28,7 +28,6 @@ struct StepState {
     SchemeHistory past;
     ContactWarmStart contact;
     double contact_energy = 0.0;  // J
-    double contact_dt = 0.0;      // s, the time step of the present contact stiffness
     StepControl control;          // of adaptive steps
     double time = 0.0;            // s
     double time_error = 0.0;      // s, accumulated rounding of the time
@@ -41,7 +40,6 @@ inline void begin_end(const StepState& start, StepState& end) {
     end.past = start.past;
     end.contact = start.contact;
     end.contact_energy = start.contact_energy;
-    end.contact_dt = start.contact_dt;
     end.control = start.control;
     end.time = start.time;
     end.time_error = start.time_error;

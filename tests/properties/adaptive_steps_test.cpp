@@ -67,7 +67,7 @@ Run sliding_sheet(const StepSettings& settings) {
     const Pose tilt{.translation = Vec3::Zero(), .rotation = {std::cos(0.5 * angle), 0.0, 0.0, -std::sin(0.5 * angle)}};
     Simulation simulation(settings, std::make_unique<PlaneDetector>());
     TriangleMesh grid = make_grid(0.2, 0.2, 5, 5);
-    for (Vec3& x : grid.vertices) x = transform(tilt, Vec3(x + Vec3(0, 0.005 - 0.00125 * std::cos(angle), 0)));
+    for (Vec3& x : grid.vertices) x = transform(tilt, Vec3(x + Vec3(0, 0.005 * (1.0 - std::sqrt(std::cos(angle) / 1500.0)), 0)));
     const ClothId cloth = simulation.add_cloth(grid, sheet_fabric());
     simulation.add_obstacle(make_plane(1.0), tilt, {.friction = 0.2});
     return run(simulation, cloth, settings.time_step);

@@ -33,8 +33,8 @@ struct ContactConstraints {
     std::vector<double> distance;               // m, from the cloth's middle surface to the obstacle or to the other's, > 0
     std::vector<double> thickness;              // m, activation distance
     std::vector<double> friction;               // Coulomb coefficient
-    std::vector<double> mollifier;  // edge-edge mollifier, factor of the stiffness in (0, 1]: less where other constraints hold
-                                    // the contact, too; with projection such a constraint is a spring
+    std::vector<double> mollifier;  // factor of the forces: less than 1 where other constraints hold the contact, too; with
+                                    // projection such a constraint is a spring. Below 0: the constraint is subtracted
     std::vector<int> obstacle;      // -1: cloth against cloth
     std::vector<int> feature;       // obstacle triangle, edge or vertex, by number of vertices used; between cloths the number of
                                     // vertices on the first side: 1 vertex-face, 2 edge-edge

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -44,6 +45,10 @@ struct Fabric {
     std::optional<double> gas_volume = {};  // m^3, of the gas sealed in a closed cloth, at the pressure of the air
 
     bool has_moduli() const { return stretch_stiffness.has_value(); }
+    /// N/m, the larger one of warp and weft; of raw springs that of the structural ones.
+    double modulus() const {
+        return has_moduli() ? std::max(stretch_stiffness->front(), stretch_stiffness->back()) : springs.structural;
+    }
 };
 
 }  // namespace percale

@@ -55,11 +55,10 @@ struct StepSettings {
     /// error.
     StartRule start = StartRule::repair;
     bool skip = true;  // leave out what the scene does not need (Simulation::plan); false runs everything
-    /// Stops all cloth (velocities become 0) after each step in which its potential energy, elastic and of gravity, has risen:
-    /// swinging cloth comes to rest sooner, creeping cloth is not affected; the path has no physical meaning. Where it rises
-    /// again within a few steps, repeatedly, each step of the next second stops it. Not while pins or obstacles move, seams close
-    /// or wind blows. This is kinetic damping of dynamic relaxation (Barnes 1999, Form finding and analysis of tension structures
-    /// by dynamic relaxation), by the potential instead of the kinetic energy.
+    /// Stops all cloth (velocities become 0) after each step in which its potential energy, elastic, of gravity and of contact,
+    /// has risen: swinging cloth comes to rest sooner, creeping cloth is not affected; the path has no physical meaning. Not
+    /// while pins or obstacles move, seams close or wind blows. This is kinetic damping of dynamic relaxation (Barnes 1999, Form
+    /// finding and analysis of tension structures by dynamic relaxation), by the potential instead of the kinetic energy.
     bool kinetic_damping = false;
     /// m/s. Cloth is still if it stays within half a second times this of one place; empty: within 0.002 of its thickness.
     std::optional<double> rest_speed = {};

@@ -176,7 +176,7 @@ TEST_CASE("What is saved is restored to the same bits, and what is damaged is re
     const std::vector<char> of_other = c_saved(crossing_sheet({}).get());
     refused(of_other.data(), of_other.size());
 
-    std::vector<char> small(saved.size() - 1, 'x');
+    std::vector<char> small(now.size() - 1, 'x');
     std::size_t size = 0;
     fails(percale_save(simulation.get(), small.data(), small.size(), &size), PERCALE_BUFFER_TOO_SMALL, "percale_save",
           std::to_string(small.size()));

@@ -48,6 +48,9 @@ TEST_CASE("a vertex of a cloth surface has its neighbours around it and the lowe
         const std::span<const int> found = surface.neighbours(v);
         CHECK(std::set<int>(found.begin(), found.end()) == ring);
         CHECK(found.size() == ring.size());
+        const std::span<const int> edges = surface.edges_at(v);
+        REQUIRE(edges.size() == found.size());
+        for (std::size_t k = 0; k < edges.size(); ++k) CHECK(edges[k] == surface.edge_between(v, found[k]));
         CHECK(surface.vertex_owner[v] == owner);
     }
     CHECK(surface.neighbours(static_cast<int>(mesh.vertices.size())).empty());

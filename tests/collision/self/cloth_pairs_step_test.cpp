@@ -320,7 +320,7 @@ TEST_CASE("A seam that is sewn without contact closes around a lower layer, and 
         CHECK(scene->simulation.meets(scene->sheet, scene->cover));
         CHECK(scene->crossings() == 0);
     }
-    CHECK(same.largest_gap() > sheet_cloth.thickness);
+    CHECK(same.largest_gap() > 0.25 * sheet_cloth.thickness);
     CHECK(outside.largest_gap() < 0.02 * sheet_cloth.thickness);
 }
 

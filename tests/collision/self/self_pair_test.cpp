@@ -47,7 +47,7 @@ struct TwoSheets {
     static SelfPair pair(int vertex, const Triangle& t, int triangle) {
         return {.vertex = {vertex, t[0], t[1], t[2]}, .feature = {vertex, triangle}};
     }
-    SelfPairContact contact(const SelfPair& pair) const { return self_contact(pair, mesh.vertices, surface); }
+    SelfPairContact contact(const SelfPair& pair) const { return edge_contact(pair, mesh.vertices, surface); }
     double total_activation(const std::vector<SelfPair>& pairs, double nearer_than) const {
         double sum = 0.0;
         for (const SelfPair& p : pairs) {
@@ -64,15 +64,10 @@ TEST_CASE("weights and direction of two features of cloth give the distance betw
     for (int round = 0; round < 20; ++round) {
         const TwoSheets sheets(crumpled_sheet(1, 4, 0.2, random), moved(crumpled_sheet(1, 4, 0.2, random), {0, 0.8, 0}));
         const auto& x = sheets.mesh.vertices;
-        std::vector<SelfPair> pairs = sheets.vertex_face_pairs();
-        const std::vector<SelfPair> more = sheets.edge_pairs();
-        pairs.insert(pairs.end(), more.begin(), more.end());
-        for (const SelfPair& pair : pairs) {
+        for (const SelfPair& pair : sheets.edge_pairs()) {
             const SelfPairContact contact = sheets.contact(pair);
-            const bool edges = pair.shape == PairShape::edge_edge;
             const auto& v = pair.vertex;
-            const double truth = edges ? true_edge_edge(x[v[0]], x[v[1]], x[v[2]], x[v[3]])
-                                       : true_point_triangle(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
+            const double truth = true_edge_edge(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
             CHECK(contact.distance == Approx(truth).epsilon(1e-9).margin(1e-12));
             CHECK(self_distance(pair, x) == Approx(contact.distance).epsilon(1e-12));
             Vec3 apart = Vec3::Zero();
@@ -80,28 +75,13 @@ TEST_CASE("weights and direction of two features of cloth give the distance betw
             for (int k = 0; k < 4; ++k) {
                 apart += contact.weight[k] * x[v[k]];
                 sum += contact.weight[k];
-                CHECK((k < (edges ? 2 : 1) ? contact.weight[k] >= 0.0 : contact.weight[k] <= 0.0));
+                CHECK((k < 2 ? contact.weight[k] >= 0.0 : contact.weight[k] <= 0.0));
             }
             CHECK(sum == Approx(0.0).margin(1e-14));
             CHECK(contact.direction.dot(apart) == Approx(contact.distance).epsilon(1e-9).margin(1e-12));
             CHECK(contact.direction.norm() == Approx(1.0));
         }
     }
-}
-
-TEST_CASE("a vertex above a face, an edge or a corner of a sheet is in contact with one pair") {
-    // A narrow tip pointing down, far smaller than the sheet's cells.
-    TriangleMesh tip{.vertices = {{0, 0, 0}, {0.001, 0.05, 0}, {-0.001, 0.05, 0.001}}, .triangles = {{0, 1, 2}}};
-    const Vec3 place = GENERATE(Vec3(0.13, 0, 0.08), Vec3(0.0, 0, 0.1), Vec3(0.25, 0, 0.25), Vec3(0, 0, 0), Vec3(0.5, 0, 0.125),
-                                Vec3(0.53, 0, 0.03), Vec3(-0.5, 0, -0.5), Vec3(-0.51, 0, -0.51));
-    const TwoSheets sheets(make_grid(1, 1, 5, 5), moved(tip, place + Vec3(0, 0.002, 0)));
-    const double near = 0.04;
-    double activation_distances = sheets.total_activation(sheets.vertex_face_pairs(), near);
-    for (const SelfPair& pair : sheets.edge_pairs()) {
-        // Only the tip is near; edges through it end there.
-        if (self_distance(pair, sheets.mesh.vertices) < near) activation_distances += sheets.contact(pair).activation_ratio;
-    }
-    CHECK(activation_distances == 1.0);
 }
 
 TEST_CASE("two ridges that cross are in contact through their edges") {
@@ -111,10 +91,11 @@ TEST_CASE("two ridges that cross are in contact through their edges") {
                               .triangles = {{0, 1, 2}, {0, 3, 1}}};
     const TwoSheets crossing(roof, gutter);
     CHECK(crossing.total_activation(crossing.edge_pairs(), 0.2) == 1.0);
-    CHECK(crossing.total_activation(crossing.vertex_face_pairs(), 0.2) == 0.0);
 }
 
-TEST_CASE("as cloth bends from a ridge to a valley the activation ratio of its edge falls linearly from 1 to 0") {
+TEST_CASE(
+    "as cloth bends from a ridge to a valley the activation ratio of its edge falls from 1 over 3/4 to 0, linearly on each "
+    "side") {
     const TriangleMesh roof{.vertices = {{-1, 0, 0}, {1, 0, 0}, {0, -0.5, 1}, {0, -0.5, -1}},
                             .triangles = {{0, 2, 1}, {0, 1, 3}}};
     // Its edge crosses that of the roof 0.1 above; its faces fall or rise, the one by less.
@@ -130,10 +111,10 @@ TEST_CASE("as cloth bends from a ridge to a valley the activation ratio of its e
         return crossing.contact(*middle).activation_ratio;
     };
     CHECK(activation_distance_at(0.05, 0.05) == 1.0);
-    CHECK(activation_distance_at(0.0, 0.0) == Approx(0.5));
+    CHECK(activation_distance_at(0.0, 0.0) == Approx(0.75));
     CHECK(activation_distance_at(-0.05, -0.05) == 0.0);
-    CHECK(activation_distance_at(0.05, 0.0) == Approx(0.5));
-    const double step = 1e-4, max_change = 0.5 / 0.3 * (step / 0.1) * 1.001;  // 1/2 over a sine of 0.3
+    CHECK(activation_distance_at(0.05, 0.0) == Approx(0.75));
+    const double step = 1e-4, max_change = 0.75 / 0.3 * (step / 0.1) * 1.001;  // 3/4 over a sine of 0.3
     double before = activation_distance_at(-0.05, -0.05);
     for (double fall = -0.05 + step; fall < 0.05; fall += step) {
         const double now = activation_distance_at(fall, fall + 0.001);
@@ -144,7 +125,7 @@ TEST_CASE("as cloth bends from a ridge to a valley the activation ratio of its e
     }
 }
 
-TEST_CASE("edges that cross in flat sheets wait for half of the thickness, parallel ones are left to their ends") {
+TEST_CASE("edges that cross in flat sheets wait for three quarters of the thickness, parallel ones are left to their ends") {
     const Pose turned{.translation = {0.03, 0.01, 0.02}, .rotation = {std::cos(0.2), 0, std::sin(0.2), 0}, .scale = 1.0};
     const TwoSheets crossed(make_grid(1, 1, 4, 4), placed(make_grid(1, 1, 4, 4), turned));
     int inner = 0;
@@ -152,8 +133,8 @@ TEST_CASE("edges that cross in flat sheets wait for half of the thickness, paral
         const SelfPairContact contact = crossed.contact(pair);
         const bool boundary =
             crossed.surface.edges[pair.feature[0]].triangle[1] < 0 && crossed.surface.edges[pair.feature[1]].triangle[1] < 0;
-        if (!boundary) CHECK(contact.activation_ratio <= 0.5 + 1e-9);
-        inner += std::abs(contact.activation_ratio - 0.5) < 1e-9;
+        if (!boundary) CHECK(contact.activation_ratio <= 0.75 + 1e-9);
+        inner += std::abs(contact.activation_ratio - 0.75) < 1e-9;
     }
     CHECK(inner > 20);
     const TwoSheets parallel(make_grid(1, 1, 4, 4), moved(make_grid(1, 1, 4, 4), {0, 0.01, 0}));

@@ -15,31 +15,34 @@ constexpr double h = 0.005, dt = 1.0 / 120.0, rate = 60.0;
 struct Touching {
     static constexpr int count = 8;
     std::vector<double> mass = std::vector<double>(count, 0.01);
-    DiagonalBlocks diagonal;
+    std::vector<double> modulus = std::vector<double>(count, 20.0), length = std::vector<double>(count, 0.01);
     ContactConstraints constraints;
     Vec3Arrays start, end, forces;
     std::vector<ObstacleMotion> obstacle_motions;
     std::vector<StickAnchor> stick_anchors;
-    ContactMultipliers held;
+    ClothAnchors anchors;
     ContactTerms terms;
     std::vector<ConstraintForce> constraint_forces;
 
     explicit Touching(unsigned seed) {
         Random random(seed);
-        diagonal.resize(count);
-        for (const int entry : {0, 3, 5}) std::fill_n(diagonal.data.begin() + entry * diagonal.padded, count, 0.02);
+        std::vector<ClothAnchor> anchors_left;
         start = to_vec3_arrays(random_points(random, count, 2e-4));
         end = to_vec3_arrays(random_points(random, count, 2e-4));
         forces.resize(count);
         obstacle_motions = {{.shift = random.point(2e-4)}};
         for (int i = 0; i < count; i += 2) stick_anchors.push_back({i, 0, random.point(3e-5)});
         for (int i = 0; i < count; ++i) add_constraint(random, {i, (i + 3) % count, -1, -1}, {0.3, 0.7, 0.0, 0.0}, 0);
-        held.clear(4);
         for (int i = 0; i < 4; ++i) {
             add_constraint(random, {i, i + 4, -1, -1}, {1.0, -1.0, 0.0, 0.0}, -1);
-            if (i % 2 == 0)
-                held.add(constraint_key(constraints, constraints.size() - 1), {.normal = 2.0, .friction = random.point(0.7)});
+            if (i % 2 == 0) {
+                anchors_left.push_back({.vertex = constraints.vertex.back(),
+                                        .weight = constraints.weight.back(),
+                                        .normal = constraints.direction.back(),
+                                        .stretch = random.point(3e-5)});
+            }
         }
+        anchors.set(anchors_left);
     }
 
     void add_constraint(Random& random, const std::array<int, 4>& vertex, const std::array<double, 4>& weight, int obstacle) {
@@ -71,14 +74,15 @@ struct Touching {
                                      .fraction = 0.5,
                                      .stick_anchors = stick_anchors,
                                      .obstacle_motions = obstacle_motions,
-                                     .held = &held};
+                                     .cloth_anchors = &anchors};
         add_contact(constraints,
                     {.dt = dt,
                      .obstacle_rate = rate,
                      .fraction = 0.5 + dt * rate,
-                     .gravity = Vec3(0, -9.81, 0),
                      .mass = &mass,
-                     .diagonal = &diagonal,
+                     .gravity = 9.81,
+                     .modulus = &modulus,
+                     .length = &length,
                      .friction = &friction},
                     end, forces, terms, constraint_forces);
         return PenaltyContact().loss(move(), 0.0);

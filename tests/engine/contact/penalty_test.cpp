@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/contact/contact_stiffness.h"
 #include "engine/tolerances.h"
 #include "tests/support/catch.h"
 #include "tests/support/cloth_scenes.h"
@@ -21,8 +22,7 @@ Eigen::Matrix3d full(const std::array<double, 6>& k) {
 
 /// Constraints on a few vertices, with the data of their step.
 struct FrictionContact {
-    std::vector<double> mass;
-    DiagonalBlocks diagonal;
+    std::vector<double> mass, modulus, length;
     ContactConstraints constraints;
     ContactStep step;
     Vec3Arrays start_positions, positions, forces;
@@ -30,15 +30,10 @@ struct FrictionContact {
     ContactTerms terms;
     std::vector<ConstraintForce> constraint_forces;
 
-    explicit FrictionContact(int vertices, double mass_each = 0.01) : mass(vertices, mass_each) {
-        diagonal.resize(vertices);
-        for (const int entry : {0, 3, 5}) set_diagonal(entry, std::vector<double>(vertices, mass_each));
+    explicit FrictionContact(int vertices, double mass_each = 0.01)
+        : mass(vertices, mass_each), modulus(vertices, 20.0), length(vertices, 0.01) {
         for (auto* vectors : {&start_positions, &positions, &forces}) vectors->resize(vertices);
-        step = {.dt = 1.0 / 60.0, .obstacle_rate = 60.0, .gravity = Vec3(0, -9.81, 0)};
-    }
-
-    void set_diagonal(int entry, const std::vector<double>& values) {
-        std::copy(values.begin(), values.end(), diagonal.data.begin() + static_cast<std::ptrdiff_t>(entry * diagonal.padded));
+        step = {.dt = 1.0 / 60.0, .obstacle_rate = 60.0, .gravity = 9.81};
     }
 
     void add_constraint(const std::array<int, 4>& vertex, const std::array<double, 4>& weight, const Vec3& direction,
@@ -63,7 +58,8 @@ struct FrictionContact {
 
     void evaluate() {
         step.mass = &mass;
-        step.diagonal = &diagonal;
+        step.modulus = &modulus;
+        step.length = &length;
         start.positions = &start_positions;
         step.friction = &start;
         forces.resize(static_cast<int>(mass.size()));
@@ -81,9 +77,9 @@ struct Friction {
 Friction friction_of(FrictionContact& contact) {
     contact.evaluate();
     const Vec3 n = contact.constraints.direction[0];
-    const ContactPotential potential = contact_potential(contact.constraints.distance[0], h, contact.terms.largest_stiffness);
+    const double normal = contact.constraint_forces[0].normal;
     REQUIRE(contact.terms.blocks.size() == 2);
-    return {potential.slope, contact.forces.at(0) - potential.slope * n, full(contact.terms.blocks[1].k)};
+    return {normal, contact.forces.at(0) - normal * n, full(contact.terms.blocks[1].k)};
 }
 
 double smallest_eigenvalue(const Eigen::Matrix3d& m) {
@@ -103,44 +99,44 @@ TEST_CASE("The mollifier of a constraint scales its force and its matrix") {
     CHECK(part.terms.energy == Approx(0.25 * whole.terms.energy));
 }
 
-TEST_CASE("A constraint's stiffness is half of the weighted step matrix") {
-    FrictionContact contact(3, 0.01);
-    contact.set_diagonal(0, {5.0, 6.0, 7.0});
-    contact.set_diagonal(1, {1.0, -1.0, 0.5});
-    contact.set_diagonal(2, {0.2, 0.3, -0.4});
-    contact.set_diagonal(3, {4.0, 8.0, 9.0});
-    contact.set_diagonal(4, {0.6, 0.1, 0.7});
-    contact.set_diagonal(5, {3.0, 2.0, 5.0});
+TEST_CASE("A constraint's stiffness is that of its vertices by weight, of two cloths in series, whatever the step is") {
+    FrictionContact contact(4);
+    contact.modulus = {5.0, 8.0, 3.0, 7.0};
+    contact.mass = {0.1, 0.3, 0.2, 0.5};
+    contact.length = {0.01, 0.02, 0.04, 0.03};
     const Vec3 n = Vec3(1.0, 2.0, -2.0) / 3.0;
-    contact.add_constraint({0, 1, 2, -1}, {0.2, 0.5, 0.3, 0.0}, n, 0.8 * h);
-    contact.evaluate();
-    double inertia = 0.0;
-    for (int i = 0; i < 3; ++i) {
-        std::array<double, 6> block;
-        for (int e = 0; e < 6; ++e) block[e] = contact.diagonal[e][i];
-        inertia += contact.constraints.weight[0][i] * n.dot(full(block) * n);
+    const auto force = [](const ContactStiffness& k) { return Approx(contact_potential(0.8 * h, h, k).slope).epsilon(1e-12); };
+    for (const double dt : {1e-4, 1.0 / 60.0}) {
+        contact.step.dt = dt;
+        contact.constraints.clear();
+        contact.add_constraint({0, 1, 2, -1}, {0.2, 0.5, 0.3, 0.0}, n, 0.8 * h);
+        contact.evaluate();
+        CHECK(contact.constraint_forces[0].normal == force(contact_stiffness({0.23 * 9.81, 5.9, 0.024}, h)));
+        contact.constraints.clear();
+        contact.add_constraint({0, 1, 2, 3}, {1.0, -0.2, -0.5, -0.3}, n, 0.8 * h);
+        contact.constraints.obstacle[0] = -1;
+        contact.evaluate();
+        const ContactStiffness one = contact_stiffness({0.1 * 9.81, 5.0, 0.01}, h),
+                               other = contact_stiffness({0.31 * 9.81, 5.2, 0.033}, h);
+        CHECK(contact.constraint_forces[0].normal == force(in_series(one, other)));
     }
-    CHECK(contact.terms.largest_stiffness == Approx(0.5 * inertia * 3600.0).epsilon(1e-13));
 }
 
-TEST_CASE("A constraint is stiff enough to carry its weight at three quarters of the thickness") {
-    FrictionContact contact(1, 0.01);
-    contact.step.dt = 1.0;  // so long that inertia asks for next to nothing
-    contact.add_point(Vec3(0, 1, 0), 0.75 * h);
-    contact.evaluate();
-    CHECK(contact.terms.largest_stiffness == Approx(4.0 * 0.01 * 9.81 / h).epsilon(1e-13));
-    CHECK(contact.forces.at(0).y() == Approx(0.01 * 9.81).epsilon(1e-12));
-}
-
-TEST_CASE("A constraint is stiff enough to carry the load of taut cloth at three quarters of the thickness") {
-    FrictionContact contact(2);
-    Vec3Arrays load;
-    load.resize(2);
-    for (const int vertex : {0, 1}) load.set(vertex, Vec3(7.0, -3.0, 0.0));
-    contact.step.load = &load;
-    contact.add_constraint({0, 1, -1, -1}, {0.5, 0.5, 0.0, 0.0}, Vec3(0, 1, 0), 0.75 * h);
-    contact.evaluate();
-    for (const int vertex : {0, 1}) CHECK(contact.forces.at(vertex).y() == Approx(3.0).epsilon(1e-12));
+TEST_CASE("A constraint that is subtracted has the opposite force, energy and friction, and no matrix") {
+    FrictionContact counted(4), subtracted(4);
+    for (FrictionContact* contact : {&counted, &subtracted}) {
+        contact->add_constraint({0, 1, 2, 3}, {1.0, -0.25, -0.25, -0.5}, Vec3(0, 1, 0), 0.8 * h);
+        contact->constraints.obstacle[0] = -1;
+        contact->constraints.friction[0] = 0.4;
+        contact->positions.set(0, Vec3(1e-3, 0, 0));
+    }
+    subtracted.constraints.mollifier[0] = -1.0;
+    counted.evaluate();
+    subtracted.evaluate();
+    for (int i = 0; i < 4; ++i) CHECK((counted.forces.at(i) + subtracted.forces.at(i)).norm() < 1e-15);
+    CHECK(counted.forces.at(0).x() < 0.0);
+    CHECK(subtracted.terms.energy == -counted.terms.energy);
+    CHECK(subtracted.terms.blocks.empty());
 }
 
 TEST_CASE("A constraint's force is distributed by its weights and its energy counted once") {
@@ -149,8 +145,8 @@ TEST_CASE("A constraint's force is distributed by its weights and its energy cou
     contact.add_constraint({3, 0, 2, -1}, {0.5, 0.3, 0.2, 0.0}, n, 0.7 * h);
     contact.add_constraint({1, -1, -1, -1}, {1.0, 0.0, 0.0, 0.0}, -n, 0.3 * h);
     contact.evaluate();
-    const ContactPotential first = contact_potential(0.7 * h, h, contact.terms.largest_stiffness);
-    const ContactPotential second = contact_potential(0.3 * h, h, contact.terms.largest_stiffness);
+    const ContactStiffness stiffness = contact_stiffness({0.01 * 9.81, 20.0, 0.01}, h);
+    const ContactPotential first = contact_potential(0.7 * h, h, stiffness), second = contact_potential(0.3 * h, h, stiffness);
     CHECK((contact.forces.at(3) - 0.5 * first.slope * n).norm() < 1e-14 * first.slope);
     CHECK((contact.forces.at(0) - 0.3 * first.slope * n).norm() < 1e-14 * first.slope);
     CHECK((contact.forces.at(2) - 0.2 * first.slope * n).norm() < 1e-14 * first.slope);
@@ -275,8 +271,7 @@ TEST_CASE("Constraints with one obstacle add to one friction limit, those with t
     contact.add_constraint({0, -1, -1, -1}, {1, 0, 0, 0}, Vec3(1, 0, 0), 0.9 * h);
     contact.constraints.friction = {0.5, 0.5};
     contact.evaluate();
-    const double first = contact_potential(0.8 * h, h, contact.terms.largest_stiffness).slope;
-    const double second = contact_potential(0.9 * h, h, contact.terms.largest_stiffness).slope;
+    const double first = contact.constraint_forces[0].normal, second = contact.constraint_forces[1].normal;
     REQUIRE(contact.terms.friction_contacts.all.size() == 2);
     CHECK((contact.terms.friction_contacts.find(0, 0)->friction_limit - 0.5 * Vec3(second, 0.25 * first, 0.0)).norm() <
           1e-12 * first);
@@ -293,7 +288,7 @@ TEST_CASE("Both sides of a gap add to the friction limit of a vertex") {
     contact.add_point(Vec3(0, 1, 0), 0.7 * h, 0.5);
     contact.add_point(Vec3(0, -1, 0), 0.7 * h, 0.5);
     contact.evaluate();
-    const double force = contact_potential(0.7 * h, h, contact.terms.largest_stiffness).slope;
+    const double force = contact.constraint_forces[0].normal;
     CHECK(contact.terms.friction_contacts.find(0, 0)->friction_limit.norm() == Approx(force).epsilon(1e-12));
 }
 
@@ -313,11 +308,9 @@ TEST_CASE("The power of an obstacle is its force times its velocity, friction in
     CHECK(contact.terms.obstacle_power == Approx((push * 0.002 + 0.5 * push * 0.1) * 60.0).epsilon(1e-12));
 }
 
-TEST_CASE("Between cloths the stiffness is that of both sides in series, and forces cancel") {
+TEST_CASE("Between cloths forces cancel") {
     Random random(11);
     FrictionContact contact(4);
-    const std::array<double, 4> a{5.0, 8.0, 3.0, 7.0};
-    for (const int entry : {0, 3, 5}) contact.set_diagonal(entry, {a.begin(), a.end()});
     for (const std::array<double, 4>& weight : {std::array{1.0, -0.2, -0.5, -0.3}, std::array{0.4, 0.6, -0.9, -0.1}}) {
         contact.constraints.clear();
         contact.add_constraint({0, 1, 2, 3}, weight, random.unit(), 0.6 * h);
@@ -325,9 +318,6 @@ TEST_CASE("Between cloths the stiffness is that of both sides in series, and for
         contact.constraints.friction[0] = 0.4;
         for (int i = 0; i < 4; ++i) contact.positions.set(i, contact.step.dt * random.point(2.0));
         contact.evaluate();
-        double compliance = 0.0;
-        for (int k = 0; k < 4; ++k) compliance += weight[k] * weight[k] / a[k];
-        CHECK(contact.terms.largest_stiffness == Approx(0.5 * 3600.0 / compliance).epsilon(1e-12));
         Vec3 sum = Vec3::Zero();
         for (int i = 0; i < 4; ++i) sum += contact.forces.at(i);
         CHECK(sum.norm() < 1e-13 * contact.forces.at(0).norm());
@@ -354,44 +344,6 @@ TEST_CASE("Friction between cloths opposes their relative velocity and ignores a
         CHECK((friction - Vec3(-0.4 * normal, 0, 0)).norm() < 1e-12 * normal);
         CHECK((contact.forces.at(3) + 0.5 * contact.forces.at(0)).norm() < 1e-12 * normal);
     }
-}
-
-TEST_CASE("In a shorter step the inertial part makes contact no stiffer than in the step for which it is made, the springs do") {
-    FrictionContact contact(1);
-    contact.add_point(Vec3(0, 1, 0), 0.7 * h);
-    contact.step.gravity = Vec3::Zero();
-    const auto stiffness_of = [&](double dt, double stiffness_dt, double elastic) {
-        contact.step.dt = dt;
-        contact.step.stiffness_dt = stiffness_dt;
-        for (const int entry : {0, 3, 5}) contact.set_diagonal(entry, {0.01 + dt * dt * elastic});
-        contact.evaluate();
-        return contact.terms.largest_stiffness;
-    };
-    CHECK(stiffness_of(1e-3, 0.0, 0.0) == Approx(0.5 * 0.01 / 1e-6));
-    CHECK(stiffness_of(1e-3, 1e-2, 0.0) == Approx(0.5 * 0.01 / 1e-4));
-    CHECK(stiffness_of(1e-3, 1e-2, 300.0) == Approx(0.5 * (0.01 / 1e-4 + 300.0)));
-    CHECK(stiffness_of(1e-2, 1e-3, 300.0) == Approx(0.5 * (0.01 / 1e-4 + 300.0)));
-}
-
-TEST_CASE("A moving obstacle makes contact no stiffer than its speed asks for, however short the substep is") {
-    FrictionContact contact(1);
-    contact.add_point(Vec3(0, 1, 0), 0.7 * h);
-    contact.step.gravity = Vec3::Zero();
-    contact.step.obstacle_rate = 100.0;  // steps of 0.01 s
-    contact.step.stiffness_dt = 1e-2;
-    const auto stiffness_of = [&](double dt, double moved) {
-        contact.constraints.obstacle_displacement[0] = Vec3(0, moved, 0);
-        contact.step.dt = dt;
-        for (const int entry : {0, 3, 5}) contact.set_diagonal(entry, {0.01});
-        contact.evaluate();
-        return contact.terms.largest_stiffness;
-    };
-    const double at_speed = 0.5 * 0.01 * std::pow(100.0 * 0.5 * h / (h / 12.0), 2);  // half the thickness in a step
-    for (const double dt : {1e-5, 1e-7}) CHECK(stiffness_of(dt, 0.5 * h) == Approx(at_speed));
-    CHECK(stiffness_of(1e-7, -0.5 * h) == Approx(at_speed));
-    CHECK(stiffness_of(5e-3, 0.5 * h) == Approx(0.5 * 0.01 / 25e-6));
-    CHECK(stiffness_of(1e-2, 0.5 * h) == Approx(0.5 * 0.01 / 1e-4));
-    CHECK(stiffness_of(1e-7, 0.0) == Approx(0.5 * 0.01 / 1e-4));
 }
 
 }  // namespace percale::test::penalty_test

@@ -265,30 +265,39 @@ TEST_CASE("No content of a correctly sealed state does harm") {
     CHECK(taken > 100);
 }
 
-TEST_CASE("A state that no step can reach is refused with the reason, and nothing has changed") {
+namespace {
+
+struct Fault {
+    const char* words;
+    std::function<void(World&)> make;
+    Scheme scheme = Scheme::backward_euler;
+    std::vector<StartMove> moves = {};
+};
+
+World on_low_plane(Scheme scheme) {
+    const TriangleMesh grid = make_grid(0.2, 0.2, 3, 3);
+    World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, {.scheme = scheme});
+    world.scene.detector = std::make_unique<PlaneDetector>();
+    world.scene.detector->set_cloth(world.scene.model.triangles, world.scene.model.thickness);
+    world.scene.detector->add_obstacle(make_plane(1.0), {.translation = {0, -0.1, 0}}, 0.3);
+    world.scene.script.obstacles.push_back({"plane", {.translation = {0, -0.1, 0}}, {.translation = {0, -0.1, 0}}, 2});
+    step(world);
+    return world;
+}
+
+/// An anchor between cloths.
+ClothAnchor anchor(const std::array<int, 4>& vertex, const std::array<double, 4>& weight) {
+    return {.vertex = vertex, .weight = weight};
+}
+
+std::vector<Fault> faults() {
     const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
-    const auto make = [](Scheme scheme) {
-        const TriangleMesh grid = make_grid(0.2, 0.2, 3, 3);
-        World world = make_world(cloth_model(grid, sheet_fabric()), grid.vertices, {.scheme = scheme});
-        world.scene.detector = std::make_unique<PlaneDetector>();
-        world.scene.detector->set_cloth(world.scene.model.triangles, world.scene.model.thickness);
-        world.scene.detector->add_obstacle(make_plane(1.0), {.translation = {0, -0.1, 0}}, 0.3);
-        world.scene.script.obstacles.push_back({"plane", {.translation = {0, -0.1, 0}}, {.translation = {0, -0.1, 0}}, 2});
-        step(world);
-        return world;
-    };
-    struct Fault {
-        const char* words;
-        std::function<void(World&)> make;
-        Scheme scheme = Scheme::backward_euler;
-        std::vector<StartMove> moves = {};
-    };
     const StartMove move{.cloth = 1, .obstacle = 0};
-    const std::vector<Fault> faults = {
+    return {
         {"time_step", [=](World& w) { w.scene.settings.time_step = -1.0; }},
         {"not finite", [=](World& w) { w.state.time = nan; }},
         {"not finite", [=](World& w) { w.state.contact_energy = infinity; }},
-        {"not finite", [=](World& w) { w.state.contact_dt = nan; }},
+        {"not finite", [=](World& w) { w.state.contact_energy = nan; }},
         {"not finite", [=](World& w) { w.state.cloth.velocities.set(3, Vec3(0, infinity, 0)); }},
         {"wrong number of vertices", [=](World& w) { w.state.cloth.positions.resize(20); }},
         {"stick anchor",
@@ -297,6 +306,19 @@ TEST_CASE("A state that no step can reach is refused with the reason, and nothin
          [=](World& w) { w.state.cloth.stick_anchors.push_back({.vertex = 0, .obstacle = 1, .stretch = Vec3::Zero()}); }},
         {"stick anchor",
          [=](World& w) { w.state.cloth.stick_anchors.push_back({.vertex = 0, .obstacle = 0, .stretch = Vec3(nan, 0, 0)}); }},
+        {"an anchor between cloths on nothing",
+         [=](World& w) {
+             w.state.contact.cloth_anchors = {anchor({0, 9, -1, -1}, {1.0, -1.0, 0.0, 0.0})};
+         }},
+        {"an anchor between cloths on nothing",
+         [=](World& w) {
+             w.state.contact.cloth_anchors = {anchor({0, -1, -1, -1}, {1.0, 0.0, 0.0, 0.0})};
+         }},
+        {"an anchor between cloths on nothing",
+         [=](World& w) {
+             w.state.contact.cloth_anchors = {anchor({0, 1, -1, -1}, {nan, -1.0, 0.0, 0.0})};
+         }},
+        {"not finite", [=](World& w) { w.state.contact.energy = infinity; }},
         {"move of nothing", [](World&) {}, Scheme::backward_euler, {move}},
         {"neither pinned nor free", [=](World& w) { w.scene.script.free[2] = 0.5; }},
         {"neither pinned nor free", [=](World& w) { w.scene.script.free.back() = 1.0; }},
@@ -313,8 +335,13 @@ TEST_CASE("A state that no step can reach is refused with the reason, and nothin
         {"below 0", [=](World& w) { w.state.control.left = -1.0; }},
         {"below 0", [=](World& w) { w.state.control.error_ratio_before = nan; }},
     };
-    for (const Fault& fault : faults) {
-        World bad = make(fault.scheme), world = make(fault.scheme);
+}
+
+}  // namespace
+
+TEST_CASE("A state that no step can reach is refused with the reason, and nothing has changed") {
+    for (const Fault& fault : faults()) {
+        World bad = on_low_plane(fault.scheme), world = on_low_plane(fault.scheme);
         CHECK_NOTHROW(restore_world(saved_of(bad, {}), world));
         const Saved before = saved_of(world, {});
         fault.make(bad);

@@ -131,14 +131,22 @@ TEST_CASE("A point that hits an obstacle leaves at the restitution times its spe
     CHECK(coming.after(-2.0).on(0.5).settle() == -1.0);
     REQUIRE(coming.end.impacts.size() == 1);
     CHECK(coming.end.impacts[0].speed == 2.0);
-    CHECK(coming.space.thrown.empty());
+    CHECK(coming.space.jumps.empty());
 
     Hit stopped(Vec3(0, -0.01, 0));
     CHECK(stopped.after(-1.0, coming.end.impacts).on(0.5).settle() == Approx(1.0).epsilon(1e-14));
     REQUIRE(stopped.end.impacts.size() == 1);
     CHECK(stopped.end.impacts[0].stopped);
-    REQUIRE(stopped.space.thrown.size() == 1);
-    CHECK(stopped.space.thrown[0].direction == Vec3(0, 1, 0));
+    REQUIRE(stopped.space.jumps.size() == 1);
+    CHECK(stopped.space.jumps[0].direction == Vec3(0, 1, 0));
+
+    // Without restitution its velocity has jumped as well, in the step in which it was stopped.
+    Hit without(Vec3(0, -0.01, 0));
+    without.after(-1.0, coming.end.impacts).settle();
+    CHECK(without.space.jumps.size() == 1);
+    Hit later(Vec3(0, 0.0, 0));
+    later.after(0.0, without.end.impacts).settle();
+    CHECK(later.space.jumps.empty());
 
     Hit too_fast(Vec3(0, 3.0, 0));
     CHECK(too_fast.after(-2.0).on(0.5).settle() == Approx(1.0).epsilon(1e-14));
@@ -176,7 +184,7 @@ TEST_CASE("Settling gives an obstacle the impulse that it takes from the cloth, 
     const double given = 1.5 * mass * 2.0;  // from 3 m/s to 1
     CHECK((hit.impulses[0].linear - Vec3(0, given, 0)).norm() < 1e-14);
     CHECK((hit.impulses[0].angular - Vec3(0, 0, 0.2 * given)).norm() < 1e-14);
-    CHECK(hit.space.thrown[0].obstacle == 0);
+    CHECK(hit.space.jumps[0].obstacle == 0);
 
     Hit between(Vec3(0, 1.0, 0), push, true);
     between.impulses.resize(1);

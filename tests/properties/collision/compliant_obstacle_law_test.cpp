@@ -217,7 +217,7 @@ TEST_CASE("Deflections of a pinch that lasts stay as they are, in every bit, and
         CHECK(report.ok() == yields);
         if (yields) {
             CHECK(same > 20);
-            CHECK(report.pinched > 0);
+            CHECK((report.pinched > 0 || report.slept));
             CHECK(report.yielded > 0.01);
             continue;
         }

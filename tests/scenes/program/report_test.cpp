@@ -44,7 +44,7 @@ TEST_CASE("report writes the page of a run into its folder, or to the file that 
 TEST_CASE("run --report leaves a page, also of a run whose expectations failed or that wrote no frames") {
     if (!can_report()) return;
     const TestFolder folder;
-    folder.write("box.toml", sheet_on_box() + "[expect]\nspeed_at_end = { below = 1e-9 }\n");
+    folder.write("box.toml", sheet_on_box() + "[expect]\nspeed_at_end = { above = 1e9 }\n");
     const ProgramRun failed = run_program({"run", "box.toml", "-o", "out", "--report"}, folder.path());
     CHECK(failed.exit_code == 1);
     CHECK(failed.out.find("out/report.html: 7 frames, ") != std::string::npos);
