@@ -17,6 +17,9 @@ namespace percale {
 /// digits are refused. Larger: a quaternion that was never meant to be a rotation is accepted.
 constexpr double unit_length_error = 1e-6, unit_square_error = 1e-6;
 
+/// m/s^2, of the earth: of bending lengths in fabric presets, and of the weights that contact carries in a scene without gravity.
+constexpr double standard_gravity = 9.80665;
+
 // ---- support/
 
 /// Threads of one pool, and the work that a thread should have before `threads = auto` uses another one (cost alone).

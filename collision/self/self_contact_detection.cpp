@@ -128,7 +128,7 @@ double SelfContactDetection::measure_vertex(SelfList& list, SelfPair& pair, std:
 
 double SelfContactDetection::measure_edges(SelfList& list, SelfPair& pair, std::span<const Vec3> positions,
                                            ContactConstraints& constraints) const {
-    const SelfPairContact contact = edge_contact(pair, positions, lists_.surface());
+    const EdgeContact contact = edge_contact(pair, positions, lists_.surface());
     pair.reach = contact.distance + list.travel;
     const double activation_distance = std::max(contact.activation_ratio, contact.crossing * min_activation_ratio) *
                                        activation_distance_at(pair, list.seam_activation_distance(pair), contact.weight);

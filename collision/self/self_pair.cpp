@@ -71,11 +71,11 @@ double self_distance(const SelfPair& pair, std::span<const Vec3> positions) {
     return std::sqrt(edges ? edge_on_edge(pair, positions).distance_squared : vertex_on_face(pair, positions).distance_squared);
 }
 
-SelfPairContact edge_contact(const SelfPair& pair, std::span<const Vec3> x, const ClothSurface& surface) {
+EdgeContact edge_contact(const SelfPair& pair, std::span<const Vec3> x, const ClothSurface& surface) {
     const EdgeEdge closest = edge_on_edge(pair, x);
     const double s = closest.s, t = closest.t;
     const Vec3 &a = x[pair.vertex[0]], &b = x[pair.vertex[1]], &c = x[pair.vertex[2]], &d = x[pair.vertex[3]];
-    SelfPairContact contact{.weight = {1.0 - s, s, t - 1.0, -t}};
+    EdgeContact contact{.weight = {1.0 - s, s, t - 1.0, -t}};
     const Vec3 first = a + s * (b - a), second = c + t * (d - c);
     const Vec3 apart = first - second;
     contact.distance = apart.norm();

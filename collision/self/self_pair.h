@@ -33,7 +33,7 @@ struct SelfPairRecord {
 };
 
 /// The exact closest points of two edges.
-struct SelfPairContact {
+struct EdgeContact {
     double distance = 0.0;           // m
     std::array<double, 4> weight{};  // of the pair's vertices: > 0 on the first side, < 0 on the second, sum 0
     Vec3 direction = Vec3::Zero();   // unit, second side towards first
@@ -54,7 +54,7 @@ double activation_distance_at(const SelfPair& pair, const std::array<double, 4>&
 /// Distance of the pair, m.
 double self_distance(const SelfPair& pair, std::span<const Vec3> positions);
 
-SelfPairContact edge_contact(const SelfPair& pair, std::span<const Vec3> positions, const ClothSurface& surface);
+EdgeContact edge_contact(const SelfPair& pair, std::span<const Vec3> positions, const ClothSurface& surface);
 
 MovingFour moving_pair(const SelfPair& pair, std::span<const Vec3> from, std::span<const Vec3> to);
 

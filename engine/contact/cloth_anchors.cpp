@@ -43,8 +43,10 @@ const ClothAnchor* ClothAnchors::find(const ContactConstraints& constraints, std
     double nearest = vertex ? std::numeric_limits<double>::infinity() : 2.0 * h * h;
     const ClothAnchor* found = nullptr;
     for (int k = 0; k < (vertex ? 1 : 4); ++k) {
-        for (const Entry& entry : std::ranges::equal_range(entries_, constraints.vertex[constraint][k], {}, &Entry::vertex)) {
-            const ClothAnchor& anchor = anchors_[entry.anchor];
+        const int end = constraints.vertex[constraint][k];
+        for (auto entry = std::ranges::lower_bound(entries_, end, {}, &Entry::vertex);
+             entry != entries_.end() && entry->vertex == end; ++entry) {
+            const ClothAnchor& anchor = anchors_[entry->anchor];
             if (anchor.of_vertex() != vertex || anchor.normal.dot(constraints.direction[constraint]) < min_anchor_cosine)
                 continue;
             if (!vertex && anchor.vertex == constraints.vertex[constraint]) return &anchor;

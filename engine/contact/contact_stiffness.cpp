@@ -1,5 +1,7 @@
 #include "contact_stiffness.h"
 
+#include "tolerances.h"
+
 namespace percale {
 namespace {
 
@@ -12,15 +14,13 @@ constexpr double pressing_weights = 1500.0;
 /// Newton takes longer.
 constexpr double stiffness_over_modulus = 4.0;
 
-constexpr double earth_gravity = 9.81;  // m/s^2
-
 double in_series(double first, double second) { return first + second > 0.0 ? first * second / (first + second) : 0.0; }
 
 }  // namespace
 
 double contact_gravity(const Vec3& gravity) {
     const double size = gravity.norm();
-    return size > 0.0 ? size : earth_gravity;
+    return size > 0.0 ? size : standard_gravity;
 }
 
 ContactStiffness contact_stiffness(const ContactScale& vertex, double thickness) {

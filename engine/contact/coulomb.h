@@ -28,8 +28,6 @@ struct CoulombLaw {
         const double length = slip.norm();
         return slides(length) ? Vec3(stick_threshold / length * slip) : slip;
     }
-    /// The slip of at most r that has this force.
-    Vec3 slip_of(const Vec3& force) const { return -stick_threshold / limit * force; }
 
 private:
     double spring(double stretch) const { return 0.5 * limit / stick_threshold * stretch * stretch; }

@@ -13,17 +13,14 @@ namespace {
 /// 0.
 constexpr double min_start_ratio = 1e-3;
 
-/// Combines values a_k of a constraint's vertices: the weighted mean against an obstacle; between cloths, where both sides give
-/// way, 1 / sum w_k^2/a_k.
-template <class Value>
-double at_contact(const ContactConstraints& constraints, std::size_t constraint, Value value) {
-    const bool between_cloths = constraints.obstacle[constraint] < 0;
-    double sum = 0.0;
+/// kg, 1/sum w^2/m: of both sides of a constraint between cloths in series.
+double mass_between_cloths(const ContactConstraints& constraints, std::size_t constraint, const ContactStep& step) {
+    double mobility = 0.0;
     for (int k = 0; k < 4 && constraints.vertex[constraint][k] >= 0; ++k) {
-        const double weight = constraints.weight[constraint][k], a = value(constraints.vertex[constraint][k]);
-        sum += between_cloths ? weight * weight / a : weight * a;
+        const double weight = constraints.weight[constraint][k];
+        mobility += weight * weight / (*step.mass)[constraints.vertex[constraint][k]];
     }
-    return between_cloths ? 1.0 / sum : sum;
+    return 1.0 / mobility;
 }
 
 /// Adds a vertex with a weight to the scale of its side.
@@ -105,7 +102,7 @@ bool slides(const ContactConstraints& constraints, const ClothFrictionContact& c
     const double length = cloth_contact.slip.norm();
     if (!cloth_contact.law.slides(length)) return false;
     if (step.previous || cloth_contact.had_anchor) return true;
-    const double mass = at_contact(constraints, cloth_contact.constraint, [&](int vertex) { return (*step.mass)[vertex]; });
+    const double mass = mass_between_cloths(constraints, cloth_contact.constraint, step);
     return length * mass > step.dt * step.dt * cloth_contact.law.limit;
 }
 

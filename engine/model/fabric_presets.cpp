@@ -5,14 +5,13 @@
 #include <string>
 
 #include "percale/error.h"
+#include "tolerances.h"
 
 namespace percale {
 namespace {
 
 /// s. Damping time of the shipped fabrics, which was not measured. Larger: cloth moves as in oil. 0: oscillations do not decay.
 constexpr double preset_damping_time = 2e-3;
-
-constexpr double standard_gravity = 9.80665;  // m/s^2
 
 constexpr std::string_view typical =
     "typical of its kind, not one cloth: mass and bending length in the range of ASTM D1388 tables, B = mass * g * length^3; "

@@ -47,7 +47,7 @@ struct TwoSheets {
     static SelfPair pair(int vertex, const Triangle& t, int triangle) {
         return {.vertex = {vertex, t[0], t[1], t[2]}, .feature = {vertex, triangle}};
     }
-    SelfPairContact contact(const SelfPair& pair) const { return edge_contact(pair, mesh.vertices, surface); }
+    EdgeContact contact(const SelfPair& pair) const { return edge_contact(pair, mesh.vertices, surface); }
     double total_activation(const std::vector<SelfPair>& pairs, double nearer_than) const {
         double sum = 0.0;
         for (const SelfPair& p : pairs) {
@@ -65,7 +65,7 @@ TEST_CASE("weights and direction of two features of cloth give the distance betw
         const TwoSheets sheets(crumpled_sheet(1, 4, 0.2, random), moved(crumpled_sheet(1, 4, 0.2, random), {0, 0.8, 0}));
         const auto& x = sheets.mesh.vertices;
         for (const SelfPair& pair : sheets.edge_pairs()) {
-            const SelfPairContact contact = sheets.contact(pair);
+            const EdgeContact contact = sheets.contact(pair);
             const auto& v = pair.vertex;
             const double truth = true_edge_edge(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
             CHECK(contact.distance == Approx(truth).epsilon(1e-9).margin(1e-12));
@@ -130,7 +130,7 @@ TEST_CASE("edges that cross in flat sheets wait for three quarters of the thickn
     const TwoSheets crossed(make_grid(1, 1, 4, 4), placed(make_grid(1, 1, 4, 4), turned));
     int inner = 0;
     for (const SelfPair& pair : crossed.edge_pairs()) {
-        const SelfPairContact contact = crossed.contact(pair);
+        const EdgeContact contact = crossed.contact(pair);
         const bool boundary =
             crossed.surface.edges[pair.feature[0]].triangle[1] < 0 && crossed.surface.edges[pair.feature[1]].triangle[1] < 0;
         if (!boundary) CHECK(contact.activation_ratio <= 0.75 + 1e-9);

@@ -48,7 +48,7 @@ struct Falling {
     }
 
     void watch(const StepReport& report) {
-        CHECK(report.largest_speed < 50.0);
+        CHECK(report.largest_speed < 20.0);
         CHECK(report.largest_strain < 0.6);
         iterations += report.newton_iterations;
         late += report.out_of_time;
