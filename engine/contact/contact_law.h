@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "forces/blocks.h"
@@ -25,12 +26,19 @@ struct ContactStep {
     const FrictionContacts* previous = nullptr;    // of the last accepted Newton iterate; null at the first evaluation
 };
 
+/// The stiffness of a vertex' constraints with cloth on its two sides, N/m: of those that have blocks, and of those subtracted.
+struct VertexStiffness {
+    Vec3 first_side = Vec3::Zero();  // direction of the first constraint; zero: there is none
+    std::array<double, 2> added{}, subtracted{};
+};
+
 /// The result of one evaluation of contact.
 struct ContactTerms {
     std::vector<CoupledBlock> blocks;  // those of constraints, then one per friction contact
     FrictionContacts friction_contacts;
     std::vector<ClothFrictionContact> cloth_friction_contacts;  // of the constraints between cloths
     std::vector<ContactStiffness> stiffness;                    // of each constraint, with penalty
+    std::vector<VertexStiffness> vertex_stiffness;              // work space of penalty
     double energy = 0.0;                                        // J, without friction
     double largest_stiffness = 0.0;                             // N/m
     double obstacle_power = 0.0;                                // W, of the obstacles on the cloth

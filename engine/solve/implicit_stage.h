@@ -64,6 +64,7 @@ struct StageSpace {
     FrozenForces frozen;
     PenaltyContact penalty;
     ProjectedContact projection;
+    std::vector<double> loads;  // of soften_contact
 
     ContactLaw& law(ContactResponse response) {
         if (response == ContactResponse::projection) return projection;

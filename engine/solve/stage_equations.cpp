@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/contact_secants.h"
 #include "contact/contact_stiffness.h"
 #include "support/stage_timer.h"
 
@@ -157,6 +158,11 @@ void StageEquations::evaluate(StagePoint& point, const StagePoint* accepted) {
         point.contact.clear();
     }
     set_residual(point);
+    if (scene.plan.contacts && !stage_.projects() && point.constraints.size() > 0) {
+        const double weight = stage_.contact_weight;
+        soften_contact({point.constraints, point.constraint_forces, point.residual, scene.script.free, stage_.base.h, weight},
+                       point.contact, space_.loads);
+    }
 }
 
 /// Sets what projection takes from the first evaluation.

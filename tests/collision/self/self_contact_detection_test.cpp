@@ -132,7 +132,7 @@ TEST_CASE("contact constraints between cloths satisfy the equation of their head
     for (std::size_t i = 0; i < constraints.size(); ++i) {
         Vec3 apart = -constraints.obstacle_point[i];
         double sum = 0.0;
-        for (int k = 0; k < 4; ++k) {
+        for (int k = 0; k < 4 && constraints.vertex[i][k] >= 0; ++k) {
             apart += constraints.weight[i][k] * x[constraints.vertex[i][k]];
             sum += constraints.weight[i][k];
         }

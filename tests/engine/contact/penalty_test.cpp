@@ -99,6 +99,30 @@ TEST_CASE("The mollifier of a constraint scales its force and its matrix") {
     CHECK(part.terms.energy == Approx(0.25 * whole.terms.energy));
 }
 
+TEST_CASE("The matrix of a vertex over flat cloth is as stiff as its force, however many faces and edges share it") {
+    for (const int faces : {1, 2, 4}) {
+        CAPTURE(faces);
+        // Vertex 0 is over an edge or corner: faces count 1, the edges between them -1; below it, cloth that nothing is
+        // subtracted from.
+        FrictionContact contact(5);
+        const Vec3 up(0, 1, 0);
+        for (int k = 0; k < 2 * faces - 1; ++k) {
+            contact.add_constraint({0, 1, 2, 3}, {1.0, -0.2, -0.3, -0.5}, up, 0.8 * h);
+            contact.constraints.mollifier.back() = k < faces ? 1.0 : -1.0;
+        }
+        contact.add_constraint({0, 4, -1, -1}, {1.0, -1.0, 0.0, 0.0}, -up, 0.9 * h);
+        for (int& obstacle : contact.constraints.obstacle) obstacle = -1;
+        contact.evaluate();
+        double above = 0.0;
+        const auto& blocks = contact.terms.blocks;
+        REQUIRE(blocks.size() == static_cast<std::size_t>(faces) + 1);
+        for (int k = 0; k < faces; ++k) above += blocks[k].k[3];
+        const double dt = contact.step.dt;
+        CHECK(above == Approx(dt * dt * contact.constraint_forces.front().stiffness));
+        CHECK(blocks.back().k[3] == Approx(dt * dt * contact.constraint_forces.back().stiffness));
+    }
+}
+
 TEST_CASE("A constraint's stiffness is that of its vertices by weight, of two cloths in series, whatever the step is") {
     FrictionContact contact(4);
     contact.modulus = {5.0, 8.0, 3.0, 7.0};

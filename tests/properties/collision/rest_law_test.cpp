@@ -137,6 +137,15 @@ TEST_CASE("Sheets on each other rest at the same places, whatever step and dampi
     }
 }
 
+TEST_CASE("Piles whose corners and edges lie on each other come to rest in a second") {
+    for (const int side : {4, 5, 6}) {
+        CAPTURE(side);
+        Scene scene = stack({.time_step = 1.0 / 60.0, .skip = false}, 20, side);
+        REQUIRE(scene.settle(0.1, 1e-6));
+        CHECK(scene.simulation.time() < 1.0);
+    }
+}
+
 TEST_CASE("Twenty sheets rest at three quarters of the thickness or more, and their table carries their weight") {
     Scene scene = stack({.time_step = 1.0 / 60.0, .skip = false}, 20, 5);
     REQUIRE(scene.settle(0.1, 1e-8));
