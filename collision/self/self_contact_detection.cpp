@@ -17,10 +17,6 @@ namespace {
 /// Newton makes no progress (3,000 iterations a step, distances of 1e-17 m). Large: one contact counts several times.
 constexpr double min_activation_ratio = 0.1;
 
-/// Within a step a contact takes a new activation distance only if it is more than this many times the one that it began with:
-/// from min_activation_ratio to that of a local minimum. 1: it grows with every move within a step.
-constexpr double widened_activation_ratio = 3.0;
-
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Whether a distance stays above its floor while it shrinks by `shrink`.
@@ -64,8 +60,8 @@ StartFault SelfContactDetection::check_start(std::span<const Vec3> positions) co
 
 void SelfContactDetection::update_candidates(std::span<const Vec3> start, std::span<const Vec3> predicted, Workers* workers) {
     lists_.set_workers(workers);
-    lists_.for_each([](SelfList& list) {
-        for (SelfPairRecord& record : list.records) record.activation_distance = 0.0;
+    lists_.for_each([&](SelfList& list) {
+        for (SelfPairRecord& record : list.records) settle(list, record, start);
     });
     lists_.begin_step(start, predicted);
 }
@@ -126,15 +122,32 @@ double SelfContactDetection::measure_vertex(SelfList& list, SelfPair& pair, std:
     return smallest;
 }
 
+/// m, the activation distance of two edges that begin a contact where they are.
+double SelfContactDetection::activation_distance(const SelfList& list, const SelfPair& pair, const EdgeContact& contact) const {
+    return std::max(contact.activation_ratio, contact.crossing * min_activation_ratio) *
+           activation_distance_at(pair, list.seam_activation_distance(pair), contact.weight);
+}
+
+/// A step begins. While two edges are in contact, their activation distance only falls: if it grew, its potential would feed the
+/// cloth, and sheets at rest on each other tremble.
+void SelfContactDetection::settle(const SelfList& list, SelfPairRecord& record, std::span<const Vec3> positions) const {
+    if (record.activation_distance == 0.0) return;
+    const SelfPair& pair = list.pairs[record.pair];
+    const EdgeContact contact = edge_contact(pair, positions, lists_.surface());
+    record.activation_distance = contact.distance < record.activation_distance
+                                     ? std::min(record.activation_distance, activation_distance(list, pair, contact))
+                                     : 0.0;
+}
+
 double SelfContactDetection::measure_edges(SelfList& list, SelfPair& pair, std::span<const Vec3> positions,
                                            ContactConstraints& constraints) const {
     const EdgeContact contact = edge_contact(pair, positions, lists_.surface());
     pair.reach = contact.distance + list.travel;
-    const double activation_distance = std::max(contact.activation_ratio, contact.crossing * min_activation_ratio) *
-                                       activation_distance_at(pair, list.seam_activation_distance(pair), contact.weight);
-    if (contact.distance < activation_distance && activation_distance > widened_activation_ratio * list.activation_distance(pair))
-        list.record_of(pair).activation_distance = activation_distance;
-    const double begun = list.activation_distance(pair);
+    double begun = list.activation_distance(pair);
+    if (begun == 0.0) {
+        begun = activation_distance(list, pair, contact);
+        if (contact.distance < begun) list.record_of(pair).activation_distance = begun;
+    }
     if (contact.distance >= begun) return infinity;
     add_constraint(pair, begun, {contact.distance, contact.weight, contact.direction, 1}, constraints);
     return contact.distance;

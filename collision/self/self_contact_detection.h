@@ -47,6 +47,8 @@ private:
     double measure(SelfList& list, SelfPair& pair, std::span<const Vec3> positions, ContactConstraints& constraints);
     double measure_vertex(SelfList& list, SelfPair& pair, std::span<const Vec3> positions, ContactConstraints& constraints) const;
     double measure_edges(SelfList& list, SelfPair& pair, std::span<const Vec3> positions, ContactConstraints& constraints) const;
+    double activation_distance(const SelfList& list, const SelfPair& pair, const EdgeContact& contact) const;
+    void settle(const SelfList& list, SelfPairRecord& record, std::span<const Vec3> positions) const;
     void add_constraint(const SelfPair& pair, double activation_distance, const VertexTerm& term,
                         ContactConstraints& constraints) const;
 

@@ -15,7 +15,7 @@ void exchange(Archive& archive, Value& pair) {
 
 template <class Archive, OfType<SelfPairRecord> Value>
 void exchange(Archive& archive, Value& record) {
-    archive(record.pair, record.seam_activation_distance);
+    archive(record.pair, record.seam_activation_distance, record.activation_distance);
 }
 
 template <class Archive, OfType<SelfList> Value>
@@ -53,13 +53,15 @@ bool is_good(const SelfPair& pair, const ClothSurface& surface) {
     return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
 }
 
-/// Whether pairs and records name each other, one for one.
+/// Whether pairs and records name each other, one for one, and no contact has more than its pair's thickness.
 bool has_good_records(const SelfList& list) {
     long with_record = 0;
     for (std::size_t i = 0; i < list.pairs.size(); ++i) {
         const int record = list.pairs[i].record;
         if (record == -1) continue;
         if (!below(record, list.records.size()) || list.records[record].pair != static_cast<int>(i)) return false;
+        const double distance = list.records[record].activation_distance;
+        if (!(distance >= 0.0 && distance <= list.pairs[i].thickness)) return false;
         ++with_record;
     }
     return with_record == static_cast<long>(list.records.size());

@@ -29,7 +29,7 @@ struct SelfPairRecord {
     /// m, activation distances near a seam. Vertex and face: entry k is that where corner vertex[1 + k] is closest, the last is
     /// unused. Edges: those where the ends (0, 2), (0, 3), (1, 2), (1, 3) are closest.
     std::array<double, 4> seam_activation_distance = away_from_seams;
-    double activation_distance = 0.0;  // m, of its contact since the last update_candidates; 0: it is no contact
+    double activation_distance = 0.0;  // m, of the contact of two edges; 0: it is none
 };
 
 /// The exact closest points of two edges.
