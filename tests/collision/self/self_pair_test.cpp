@@ -57,6 +57,21 @@ struct TwoSheets {
     }
 };
 
+const TriangleMesh roof{.vertices = {{-1, 0, 0}, {1, 0, 0}, {0, -0.5, 1}, {0, -0.5, -1}}, .triangles = {{0, 2, 1}, {0, 1, 3}}};
+
+/// The activation ratio of the ridge of the roof with the first edge of a sheet, at a thickness.
+double ratio_with_roof(const TriangleMesh& sheet, double thickness) {
+    const TwoSheets crossing(roof, sheet);
+    const auto pairs = crossing.edge_pairs();
+    const auto ridges = std::find_if(pairs.begin(), pairs.end(), [](const SelfPair& p) {
+        return p.vertex == std::array<int, 4>{0, 1, 4, 5};
+    });
+    REQUIRE(ridges != pairs.end());
+    SelfPair pair = *ridges;
+    pair.thickness = thickness;
+    return crossing.contact(pair).activation_ratio;
+}
+
 }  // namespace
 
 TEST_CASE("weights and direction of two features of cloth give the distance between them") {
@@ -85,8 +100,6 @@ TEST_CASE("weights and direction of two features of cloth give the distance betw
 }
 
 TEST_CASE("two ridges that cross are in contact through their edges") {
-    const TriangleMesh roof{.vertices = {{-1, 0, 0}, {1, 0, 0}, {0, -0.5, 1}, {0, -0.5, -1}},
-                            .triangles = {{0, 2, 1}, {0, 1, 3}}};
     const TriangleMesh gutter{.vertices = {{0, 0.1, -1}, {0, 0.1, 1}, {1, 0.6, 0}, {-1, 0.6, 0}},
                               .triangles = {{0, 1, 2}, {0, 3, 1}}};
     const TwoSheets crossing(roof, gutter);
@@ -96,19 +109,11 @@ TEST_CASE("two ridges that cross are in contact through their edges") {
 TEST_CASE(
     "as cloth bends from a ridge to a valley the activation ratio of its edge falls from 1 over 3/4 to 0, linearly on each "
     "side") {
-    const TriangleMesh roof{.vertices = {{-1, 0, 0}, {1, 0, 0}, {0, -0.5, 1}, {0, -0.5, -1}},
-                            .triangles = {{0, 2, 1}, {0, 1, 3}}};
     // Its edge crosses that of the roof 0.1 above; its faces fall or rise, the one by less.
     const auto activation_distance_at = [&](double fall, double other_fall) {
         const TriangleMesh fold{.vertices = {{0, 0.1, -1}, {0, 0.1, 1}, {0.1, 0.1 + fall, 0}, {-0.1, 0.1 + other_fall, 0}},
                                 .triangles = {{0, 1, 2}, {0, 3, 1}}};
-        const TwoSheets crossing(roof, fold);
-        const auto pairs = crossing.edge_pairs();
-        const auto middle = std::find_if(pairs.begin(), pairs.end(), [](const SelfPair& p) {
-            return p.vertex == std::array<int, 4>{0, 1, 4, 5};
-        });
-        REQUIRE(middle != pairs.end());
-        return crossing.contact(*middle).activation_ratio;
+        return ratio_with_roof(fold, 1e3);
     };
     CHECK(activation_distance_at(0.05, 0.05) == 1.0);
     CHECK(activation_distance_at(0.0, 0.0) == Approx(0.75));
@@ -126,22 +131,12 @@ TEST_CASE(
 }
 
 TEST_CASE("edges that cross near an end lose their contact there, linearly") {
-    const TriangleMesh roof{.vertices = {{-1, 0, 0}, {1, 0, 0}, {0, -0.5, 1}, {0, -0.5, -1}},
-                            .triangles = {{0, 2, 1}, {0, 1, 3}}};
     const double thickness = 0.4;
     // The edge of the gutter crosses that of the roof 0.05 above it, `place` from its end.
     const auto ratio_at = [&](double place) {
         const TriangleMesh gutter{.vertices = {{0, 0.05, -place}, {0, 0.05, 2 - place}, {1, 0.55, 0}, {-1, 0.55, 0}},
                                   .triangles = {{0, 1, 2}, {0, 3, 1}}};
-        const TwoSheets crossing(roof, gutter);
-        const auto pairs = crossing.edge_pairs();
-        const auto ridges = std::find_if(pairs.begin(), pairs.end(), [](const SelfPair& p) {
-            return p.vertex == std::array<int, 4>{0, 1, 4, 5};
-        });
-        REQUIRE(ridges != pairs.end());
-        SelfPair pair = *ridges;
-        pair.thickness = thickness;
-        return crossing.contact(pair).activation_ratio;
+        return ratio_with_roof(gutter, thickness);
     };
     const double faded = 0.5 * thickness;
     for (const double part : {0.0, 1e-9, 0.25, 0.5, 0.99})
