@@ -121,7 +121,7 @@ SelfContactLists::SelfContactLists(std::span<const Triangle> triangles, std::spa
         clusters_of_cloth_[c].resize(cloth_.clusters.size() - static_cast<std::size_t>(first));
         std::iota(clusters_of_cloth_[c].begin(), clusters_of_cloth_[c].end(), first);
     }
-    memory_.seen = cloth_.rest;
+    memory_.start = memory_.seen = cloth_.rest;
     memory_.rooms.resize(cloth_.clusters.size());
     left_.resize(cloth_.clusters.size());
 }
@@ -149,34 +149,42 @@ void SelfContactLists::add_clusters(int cloth, std::span<const int> triangles) {
 }
 
 double SelfContactLists::cover(std::span<const Vec3> from, std::span<const Vec3> to) {
-    move_to(from);
+    if (!std::equal(from.begin(), from.end(), memory_.seen.begin())) {
+        move_to(from);
+        if (from.data() != to.data()) cover(from, from);
+    }
     rebuild_islands(from, to, false);
     return cover_move(from, to);
 }
 
 double SelfContactLists::begin_step(std::span<const Vec3> from, std::span<const Vec3> to) {
     move_to(from);
-    rebuild_islands(from, to, true);
-    give_up_room(from, to);
-    return cover_move(from, to);
+    set_motion(memory_.start, from);
+    for_each([&](SelfList& list) { list.used_room += shrink(list); });
+    std::copy(from.begin(), from.end(), memory_.start.begin());
+    cloth_.forget_boxes();
+    rebuild_islands(memory_.start, to, true);
+    give_up_room(memory_.start, to);
+    return cover_move(memory_.start, to);
 }
 
 /// Shrinks the bounds of all lists.
-void SelfContactLists::move_to(std::span<const Vec3> from) {
-    set_motion(memory_.seen, from);
+void SelfContactLists::move_to(std::span<const Vec3> now) {
+    set_motion(memory_.seen, now);
     for_each([&](SelfList& list) { list.travel += shrink(list); });
-    std::copy(from.begin(), from.end(), memory_.seen.begin());
+    std::copy(now.begin(), now.end(), memory_.seen.begin());
 }
 
+/// Makes the lists valid from `from`, where they are valid, as far towards `to` as `cover` says: the distance from where two
+/// clusters were at the start of the step is largest at an end.
 double SelfContactLists::cover_move(std::span<const Vec3> from, std::span<const Vec3> to) {
     double fraction = 1.0;
     std::span<const Vec3> end = to;
-    cloth_.forget_boxes();
     for (;;) {
         const long max = fraction < tolerances::min_covered_fraction
                              ? std::numeric_limits<long>::max()
                              : max_self_pairs + max_self_pairs_per_vertex * static_cast<long>(cloth_.rest.size());
-        set_motion(from, end);
+        set_motion(memory_.start, end);
         const auto has_lists = [&](Island& island) { return !set_rooms(island, from, end) || find_lists(island, max); };
         if (std::all_of(memory_.islands.begin(), memory_.islands.end(), has_lists) && make_stale(from, max)) break;
         give_up_lists_just_made();
@@ -210,7 +218,7 @@ void SelfContactLists::give_up_room(std::span<const Vec3> from, std::span<const 
     set_motion(from, to);
     for_each([&](SelfList& list) {
         const double wanted = shrink(list) + cloth_.clusters[list.first].skin + cloth_.clusters[list.second].skin;
-        if (!list.pairs.empty() && list.room - list.travel > max_room_ratio * wanted) list.give_up();
+        if (!list.pairs.empty() && list.room - list.used_room > max_room_ratio * wanted) list.give_up();
     });
 }
 
@@ -252,14 +260,14 @@ void SelfContactLists::rebuild_islands(std::span<const Vec3> from, std::span<con
 bool SelfContactLists::make_stale(std::span<const Vec3> from, long max) {
     stale_.clear();
     for_each([&](SelfList& list) {
-        if (list.travel + shrink(list) <= list.room) return;
-        cloth_.set_box(list.first, from);
-        cloth_.set_box(list.second, from);
+        if (list.used_room + shrink(list) <= list.room) return;
+        cloth_.set_box(list.first, memory_.start);
+        cloth_.set_box(list.second, memory_.start);
         const SelfCluster &a = cloth_.clusters[list.first], &b = cloth_.clusters[list.second];
         const double apart = a.box.gap(b.box) - 0.5 * (a.thickness + b.thickness);
         if (apart >= shrink(list) + a.skin + b.skin) return list.clear(apart);
-        cloth_.set_feature_boxes(list.first, from);
-        cloth_.set_feature_boxes(list.second, from);
+        cloth_.set_feature_boxes(list.first, memory_.start);
+        cloth_.set_feature_boxes(list.second, memory_.start);
         stale_.push_back(&list);
     });
     makers_.resize(workers_ ? static_cast<std::size_t>(workers_->threads()) : 1);
@@ -272,7 +280,7 @@ bool SelfContactLists::make_stale(std::span<const Vec3> from, long max) {
         parallel_for_chunks(workers_, round.size(), tolerances::self_lists_a_part,
                             [&](std::size_t begin, std::size_t end, int slot) {
                                 for (std::size_t i = begin; i < end; ++i)
-                                    considered_[i] = makers_[slot].fill(cloth_, *round[i], from);
+                                    considered_[i] = makers_[slot].fill(cloth_, *round[i], memory_.start, from);
                             });
         considered = std::accumulate(considered_.begin(), considered_.end(), considered);
     }

@@ -20,13 +20,15 @@ struct Island {
 
 /// State of the lists that is kept from call to call. Later answers depend on nothing else but the cloth.
 struct SelfListsState {
+    std::vector<Vec3> start;      // m, positions at the start of the step
     std::vector<Vec3> seen;       // m, positions of the last cover
     std::vector<Box> rooms;       // m, of each cluster, from the centre of its island: no list is missing while it is in it
     std::vector<Island> islands;  // in the order of their first cloths; empty: no lists have been made
 };
 
 /// Candidate pairs of cloth against cloth, in islands of cloths that come near each other. A list of two clusters is valid until
-/// they have moved far enough against each other, whatever others do. The set of lists is valid while each cluster stays in a box
+/// they have moved far enough against each other from where they were when the step began, whatever others do and on whatever
+/// path: the iterations of a step go to and fro. The set of lists is valid while each cluster stays in a box
 /// relative to the centre of its island: the motion of an island as a whole does not matter.
 class SelfContactLists {
 public:
@@ -68,7 +70,7 @@ public:
 
 private:
     void add_clusters(int cloth, std::span<const int> triangles);
-    void move_to(std::span<const Vec3> from);
+    void move_to(std::span<const Vec3> now);
     double cover_move(std::span<const Vec3> from, std::span<const Vec3> to);
     void rebuild_islands(std::span<const Vec3> from, std::span<const Vec3> to, bool may_part);
     void give_up_room(std::span<const Vec3> from, std::span<const Vec3> to);

@@ -20,7 +20,8 @@ void exchange(Archive& archive, Value& record) {
 
 template <class Archive, OfType<SelfList> Value>
 void exchange(Archive& archive, Value& list) {
-    archive(list.first, list.second, list.pairs, list.records, list.travel, list.room, list.smallest_reach, list.thickness);
+    archive(list.first, list.second, list.pairs, list.records, list.travel, list.room, list.used_room, list.smallest_reach,
+            list.thickness);
 }
 
 template <class Archive, OfType<Island> Value>
@@ -85,7 +86,8 @@ void check(const Island& island, int number, std::span<const int> island_of_clus
 }
 
 void check(const SelfListsState& memory, const SelfContactLists& lists, const StateReader& state) {
-    state.demand(memory.seen.size() == lists.memory().seen.size(), "a wrong number of vertices");
+    state.demand(memory.start.size() == lists.memory().start.size() && memory.seen.size() == memory.start.size(),
+                 "a wrong number of vertices");
     state.demand(memory.rooms.size() == lists.cluster_count(), "a wrong number of clusters");
     std::vector<int> island_of_cluster(lists.cluster_count(), -1);
     std::vector<bool> grouped(lists.cloth_count(), false);
@@ -109,12 +111,12 @@ void check(const SelfListsState& memory, const SelfContactLists& lists, const St
 
 void save(const SelfContactLists& lists, StateWriter& state) {
     const SelfListsState& memory = lists.memory();
-    state(memory.seen, memory.rooms, memory.islands);
+    state(memory.start, memory.seen, memory.rooms, memory.islands);
 }
 
 SelfListsState restored_state(const SelfContactLists& lists, StateReader& state) {
     SelfListsState memory;
-    state(memory.seen, memory.rooms, memory.islands);
+    state(memory.start, memory.seen, memory.rooms, memory.islands);
     check(memory, lists, state);
     return memory;
 }

@@ -107,6 +107,7 @@ void SelfList::begin(double with_room) {
     records.clear();
     travel = 0.0;
     room = with_room;
+    used_room = 0.0;
     smallest_reach = std::numeric_limits<double>::infinity();
     thickness = 0.0;
 }
@@ -119,7 +120,7 @@ void SelfList::give_up() {
     room = -1.0;
 }
 
-long SelfListMaker::fill(const SelfCloth& cloth, SelfList& list, std::span<const Vec3> from) {
+long SelfListMaker::fill(const SelfCloth& cloth, SelfList& list, std::span<const Vec3> start, std::span<const Vec3> now) {
     cloth_ = &cloth;
     pairs_.clear();
     records_.clear();
@@ -134,10 +135,11 @@ long SelfListMaker::fill(const SelfCloth& cloth, SelfList& list, std::span<const
     const bool one = list.first == list.second;
     find_near(a, b.box, reach.limit(), near_first_);
     find_near(b, a.box, reach.limit(), near_second_);
-    pair_vertices(near_first_, near_second_, reach, from);
-    if (!one) pair_vertices(near_second_, near_first_, reach, from);
-    pair_edges(one, reach, from);
-    for (const SelfPair& pair : pairs_) {
+    pair_vertices(near_first_, near_second_, reach, start);
+    if (!one) pair_vertices(near_second_, near_first_, reach, start);
+    pair_edges(one, reach, start);
+    for (SelfPair& pair : pairs_) {
+        if (now.data() != start.data()) pair.reach = self_distance(pair, now);
         list.smallest_reach = std::min(list.smallest_reach, pair.reach);
         list.thickness = std::max(list.thickness, pair.thickness);
     }
@@ -164,7 +166,7 @@ void SelfListMaker::find_near(const SelfCluster& cluster, Box other, double limi
     }
 }
 
-void SelfListMaker::pair_vertices(const Near& points, const Near& faces, Reach reach, std::span<const Vec3> from) {
+void SelfListMaker::pair_vertices(const Near& points, const Near& faces, Reach reach, std::span<const Vec3> start) {
     for (const int v : points.vertices) {
         Box box = cloth_->vertex_boxes[v];
         box.grow(reach.limit());
@@ -176,13 +178,13 @@ void SelfListMaker::pair_vertices(const Near& points, const Near& faces, Reach r
                 continue;
             }
             consider({.shape = PairShape::point_triangle, .vertex = {v, face[0], face[1], face[2]}, .feature = {v, t}},
-                     reach.room, from);
+                     reach.room, start);
         }
     }
 }
 
 /// Pairs the edges of the clusters last found near each other; of `one` cluster each pair once.
-void SelfListMaker::pair_edges(bool one, Reach reach, std::span<const Vec3> from) {
+void SelfListMaker::pair_edges(bool one, Reach reach, std::span<const Vec3> start) {
     for (const int e : near_first_.edges) {
         const auto& [a, b] = cloth_->surface.edges[e].vertex;
         Box box = cloth_->edge_boxes[e];
@@ -194,7 +196,7 @@ void SelfListMaker::pair_edges(bool one, Reach reach, std::span<const Vec3> from
                                          thickness_by_rest(std::array{a, b}, std::array{c, d}, reach.thickness) + reach.room) {
                 continue;
             }
-            consider({.shape = PairShape::edge_edge, .vertex = {a, b, c, d}, .feature = {e, f}}, reach.room, from);
+            consider({.shape = PairShape::edge_edge, .vertex = {a, b, c, d}, .feature = {e, f}}, reach.room, start);
         }
     }
 }
@@ -223,12 +225,12 @@ void SelfListMaker::set_seam_activation_distance(SelfPair& pair, std::array<doub
 }
 
 /// Keeps a pair that may come into contact if its distance can shrink by `room`.
-void SelfListMaker::consider(SelfPair pair, double room, std::span<const Vec3> from) {
+void SelfListMaker::consider(SelfPair pair, double room, std::span<const Vec3> start) {
     ++considered_;
     const double thickness =
         pair_.thickness.value_or(0.5 * (cloth_->thickness[pair.vertex[0]] + cloth_->thickness[pair.vertex[3]]));
     pair.thickness = thickness;
-    pair.reach = self_distance(pair, from);
+    pair.reach = self_distance(pair, start);
     if (pair.reach >= pair.thickness + room) return;
     const bool one_cloth = cloth_->cloth[pair.vertex[0]] == cloth_->cloth[pair.vertex[3]];
     const std::span<const int> vertices = pair.vertex;

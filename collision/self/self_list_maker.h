@@ -51,13 +51,15 @@ struct SelfCloth {
     void set_feature_boxes(int cluster, std::span<const Vec3> positions);
 };
 
-/// The pairs of two clusters (or of one with itself) that can come into contact while `travel` is at most `room`.
+/// The pairs of two clusters (or of one with itself) that can come into contact while the distances between their features have
+/// shrunk by at most `room` since the start of the step for which the list was made.
 struct SelfList {
     int first = 0, second = 0;  // clusters, first <= second
     std::vector<SelfPair> pairs = {};
     std::vector<SelfPairRecord> records = {};
-    double travel = 0.0;          // m, bound of how much any distance has shrunk since the list was made
+    double travel = 0.0;          // m, bound of how much any distance has shrunk since the list was made, along the whole path
     double room = -1.0;           // m
+    double used_room = 0.0;       // m, bound of how much any distance shrank from that step's start to the start of this one
     double smallest_reach = 0.0;  // smallest SelfPair::reach
     double thickness = 0.0;       // m, largest of its pairs
 
@@ -83,8 +85,9 @@ struct SelfList {
 class SelfListMaker {
 public:
     /// Rebuilds the list of two boxed clusters: all pairs that can come into contact while the clusters move against each other
-    /// by no more than the list's new room. Contacts stay contacts. Returns the number of pairs considered.
-    long fill(const SelfCloth& cloth, SelfList& list, std::span<const Vec3> from);
+    /// by no more than the list's new room from the start of the step, where their features are boxed. Distances are those `now`.
+    /// Contacts stay contacts. Returns the number of pairs considered.
+    long fill(const SelfCloth& cloth, SelfList& list, std::span<const Vec3> start, std::span<const Vec3> now);
 
 private:
     struct Near {
@@ -99,11 +102,11 @@ private:
     };
 
     void find_near(const SelfCluster& cluster, Box other, double limit, Near& near) const;
-    void pair_vertices(const Near& points, const Near& faces, Reach reach, std::span<const Vec3> from);
-    void pair_edges(bool one, Reach reach, std::span<const Vec3> from);
+    void pair_vertices(const Near& points, const Near& faces, Reach reach, std::span<const Vec3> start);
+    void pair_edges(bool one, Reach reach, std::span<const Vec3> start);
     void set_seam_activation_distance(SelfPair& pair, std::array<double, 4>& seam_activation_distance) const;
     double thickness_by_rest(std::span<const int> first, std::span<const int> second, double max) const;
-    void consider(SelfPair pair, double room, std::span<const Vec3> from);
+    void consider(SelfPair pair, double room, std::span<const Vec3> start);
     void take_over_activation_distances();
 
     const SelfCloth* cloth_ = nullptr;

@@ -168,7 +168,7 @@ TEST_CASE("lists of cloth against cloth hold every pair that comes near during a
         const Vec3 together = random.point(2.0);
         std::vector<Vec3> to = shaken(x, random.decades(1e-3, 0.1), random);
         for (Vec3& point : to) point += together;
-        CHECK(lists.cover(x, to) == 1.0);
+        CHECK((step % 2 == 0 ? lists.cover(x, to) : lists.begin_step(x, to)) == 1.0);
         const double fraction = random.number(0.0, 1.0);
         const std::vector<Vec3> here = shaken(between(x, to, fraction), 0.1 * h, random);
         CHECK(lists.cover(here, here) == 1.0);
@@ -202,6 +202,30 @@ TEST_CASE("lists stay valid while cloth moves as a whole, along its prediction o
     off[17].y() += 2.0;
     CHECK_FALSE(kept(off));
     CHECK(kept(off));
+}
+
+TEST_CASE("iterations that go to and fro within the move of a step use up no room; steps do") {
+    Random random(8);
+    const Cloths cloths = sheet_stack(2, 9, 0.06, 0.05, random);
+    SelfContactLists lists(cloths.mesh.triangles, cloths.thickness, cloths.self_contact());
+    const std::vector<Vec3>& start = cloths.mesh.vertices;
+    const std::vector<Vec3> to = shaken(start, 0.3, random);
+    const auto kept = [&](const std::vector<Vec3>& from, const std::vector<Vec3>& end) {
+        mark_all(lists);
+        lists.cover(from, end);
+        return all_kept(lists, cloths);
+    };
+    lists.begin_step(start, to);
+    for (int n = 0; n < 10; ++n) {
+        CHECK(kept(start, to));
+        CHECK(kept(to, start));
+    }
+    lists.begin_step(start, start);
+    lists.begin_step(to, start);
+    mark_all(lists);
+    lists.begin_step(start, to);
+    CHECK_FALSE(all_kept(lists, cloths));
+    check_pairs(lists, cloths, to);
 }
 
 TEST_CASE("lists of cloth that has moved are rebuilt, others stay") {

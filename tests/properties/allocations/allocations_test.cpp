@@ -128,7 +128,7 @@ std::vector<Scene> scenes() {
             {.name = "on a ball, penalty", .settings = {}, .ball = true, .warm_up = 240},
             {.name = "on a ball, TR-BDF2", .settings = tr, .ball = true, .warm_up = 240},
             {.name = "on a ball, projection", .settings = projection, .ball = true, .warm_up = 240},
-            {.name = "two sheets on a ball", .settings = {}, .ball = true, .self_contact = true, .warm_up = 260}};
+            {.name = "two sheets on a ball", .settings = {}, .ball = true, .self_contact = true, .warm_up = 280}};
 }
 
 }  // namespace
