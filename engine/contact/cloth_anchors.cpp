@@ -9,8 +9,6 @@ namespace {
 /// Cosine between the directions of contacts that share an anchor. Less: a vertex between two sheets holds on to either.
 constexpr double min_anchor_cosine = 0.5;
 
-bool of_vertex(const ContactConstraints& constraints, std::size_t constraint) { return constraints.weight[constraint][1] < 0.0; }
-
 /// How far the points of two contacts lie apart, m^2, by the sides with weights of that sign.
 double square_between_points(const ClothAnchor& anchor, const ContactConstraints& constraints, std::size_t constraint,
                              const Vec3Arrays& x, bool first_side) {
@@ -30,7 +28,7 @@ void ClothAnchors::set(std::span<const ClothAnchor> anchors) {
     anchors_.assign(anchors.begin(), anchors.end());
     entries_.clear();
     for (int i = 0; i < static_cast<int>(anchors.size()); ++i) {
-        const int ends = anchors[i].of_vertex() ? 1 : 4;
+        const int ends = is_of_vertex(anchors[i].weight) ? 1 : 4;
         for (int k = 0; k < ends; ++k) entries_.push_back({anchors[i].vertex[k], i});
     }
     std::ranges::sort(entries_, {}, [](const Entry& entry) { return std::pair(entry.vertex, entry.anchor); });
@@ -38,7 +36,7 @@ void ClothAnchors::set(std::span<const ClothAnchor> anchors) {
 
 const ClothAnchor* ClothAnchors::find(const ContactConstraints& constraints, std::size_t constraint,
                                       const Vec3Arrays& start) const {
-    const bool vertex = of_vertex(constraints, constraint);
+    const bool vertex = is_of_vertex(constraints.weight[constraint]);
     const double h = constraints.thickness[constraint];
     double nearest = vertex ? std::numeric_limits<double>::infinity() : 2.0 * h * h;
     const ClothAnchor* found = nullptr;
@@ -47,7 +45,7 @@ const ClothAnchor* ClothAnchors::find(const ContactConstraints& constraints, std
         for (auto entry = std::ranges::lower_bound(entries_, end, {}, &Entry::vertex);
              entry != entries_.end() && entry->vertex == end; ++entry) {
             const ClothAnchor& anchor = anchors_[entry->anchor];
-            if (anchor.of_vertex() != vertex || anchor.normal.dot(constraints.direction[constraint]) < min_anchor_cosine)
+            if (is_of_vertex(anchor.weight) != vertex || anchor.normal.dot(constraints.direction[constraint]) < min_anchor_cosine)
                 continue;
             if (!vertex && anchor.vertex == constraints.vertex[constraint]) return &anchor;
             double square = square_between_points(anchor, constraints, constraint, start, false);
@@ -62,8 +60,8 @@ const ClothAnchor* ClothAnchors::find(const ContactConstraints& constraints, std
 
 /// Hardest pressed first, those of a vertex together.
 bool AnchorKeeper::comes_before(const Candidate& a, const Candidate& b) {
-    if (a.anchor.of_vertex() != b.anchor.of_vertex()) return a.anchor.of_vertex();
-    if (!a.anchor.of_vertex()) return a.anchor.vertex < b.anchor.vertex;
+    if (is_of_vertex(a.anchor.weight) != is_of_vertex(b.anchor.weight)) return is_of_vertex(a.anchor.weight);
+    if (!is_of_vertex(a.anchor.weight)) return a.anchor.vertex < b.anchor.vertex;
     if (a.anchor.vertex[0] != b.anchor.vertex[0]) return a.anchor.vertex[0] < b.anchor.vertex[0];
     return a.limit != b.limit ? a.limit > b.limit : a.anchor.vertex < b.anchor.vertex;
 }
@@ -84,8 +82,8 @@ void AnchorKeeper::keep(const ContactConstraints& constraints, std::span<const C
     std::ranges::sort(candidates_, comes_before);
     anchors.clear();
     for (const auto& [anchor, limit] : candidates_) {
-        bool known = !anchors.empty() && anchors.back().vertex == anchor.vertex && !anchor.of_vertex();
-        for (std::size_t i = anchors.size(); i-- > 0 && anchor.of_vertex() && anchors[i].vertex[0] == anchor.vertex[0];)
+        bool known = !anchors.empty() && anchors.back().vertex == anchor.vertex && !is_of_vertex(anchor.weight);
+        for (std::size_t i = anchors.size(); i-- > 0 && is_of_vertex(anchor.weight) && anchors[i].vertex[0] == anchor.vertex[0];)
             known = known || anchors[i].normal.dot(anchor.normal) >= min_anchor_cosine;
         if (!known) anchors.push_back(anchor);
     }

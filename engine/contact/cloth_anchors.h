@@ -10,6 +10,10 @@
 
 namespace percale {
 
+/// Whether the first side of a constraint or an anchor between cloths, with these weights, is a vertex; else both are points of
+/// edges.
+inline bool is_of_vertex(const std::array<double, 4>& weight) { return weight[1] < 0.0; }
+
 /// Friction of a constraint between two cloths.
 struct ClothFrictionContact {
     int constraint = -1;
@@ -28,9 +32,6 @@ struct ClothAnchor {
     std::array<double, 4> weight{};
     Vec3 normal = Vec3::Zero();   // unit, second side towards first
     Vec3 stretch = Vec3::Zero();  // m, world, tangential
-
-    /// Whether the first side is a vertex; else both are points of edges.
-    bool of_vertex() const { return weight[1] < 0.0; }
 };
 
 /// The anchors at the start of a stage. They are found by what is in contact, not by its features: those of a vertex by the

@@ -122,7 +122,7 @@ Vec3 friction_between_cloths(const ContactConstraints& constraints, const ClothF
 
 /// Whether a constraint is of a vertex with cloth.
 bool of_vertex_with_cloth(const ContactConstraints& constraints, std::size_t constraint) {
-    return constraints.obstacle[constraint] < 0 && constraints.weight[constraint][1] < 0.0;
+    return constraints.obstacle[constraint] < 0 && is_of_vertex(constraints.weight[constraint]);
 }
 
 /// On which side of the vertex the constraint holds cloth.

@@ -111,7 +111,7 @@ TEST_CASE("Edges find the anchor of the edges beside them, where it is near; a s
     std::vector<ClothAnchor> left;
     AnchorKeeper().keep(sheet.constraints, std::vector{sheet.contact(first, 0, sheet.x)}, left);
     REQUIRE(left.size() == 1);
-    CHECK(!left[0].of_vertex());
+    CHECK(!is_of_vertex(left[0].weight));
     ClothAnchors anchors;
     anchors.set(left);
     CHECK(anchors.find(sheet.constraints, 0, sheet.x) != nullptr);
