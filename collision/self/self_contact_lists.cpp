@@ -151,7 +151,7 @@ void SelfContactLists::add_clusters(int cloth, std::span<const int> triangles) {
 double SelfContactLists::cover(std::span<const Vec3> from, std::span<const Vec3> to) {
     if (!std::equal(from.begin(), from.end(), memory_.seen.begin())) {
         move_to(from);
-        if (from.data() != to.data()) cover(from, from);
+        if (from.data() != to.data()) cover(from, from);  // no move that has been covered need have led here
     }
     rebuild_islands(from, to, false);
     return cover_move(from, to);

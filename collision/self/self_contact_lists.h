@@ -28,8 +28,8 @@ struct SelfListsState {
 
 /// Candidate pairs of cloth against cloth, in islands of cloths that come near each other. A list of two clusters is valid until
 /// they have moved far enough against each other from where they were when the step began, whatever others do and on whatever
-/// path: the iterations of a step go to and fro. The set of lists is valid while each cluster stays in a box
-/// relative to the centre of its island: the motion of an island as a whole does not matter.
+/// path: the iterations of a step go to and fro. The set of lists is valid while each cluster stays in a box relative to the
+/// centre of its island: the motion of an island as a whole does not matter.
 class SelfContactLists {
 public:
     SelfContactLists(std::span<const Triangle> triangles, std::span<const double> vertex_thickness, const SelfContact& cloth);

@@ -83,6 +83,28 @@ DrawnTogether draw_together(Scheme scheme, double dt, double share) {
     return {std::abs(gap - start * (1.0 - end / over) - swing), std::abs(work - exact_work)};
 }
 
+/// Iterations of the linear solver for each of Newton's, of two sheets sewn vertex to point along a side.
+double multigrid_iterations(double stiffness) {
+    constexpr int n = 25;
+    Simulation simulation({.linear_solver = LinearSolver::multigrid});
+    const ClothId left = simulation.add_cloth(make_grid(0.5, 0.5, n, n), sheet_fabric(), {}, "left");
+    const ClothId right =
+        simulation.add_cloth(make_grid(0.5, 0.5, n, n), sheet_fabric(), {.translation = {0.502, 0, 0}}, "right");
+    simulation.pin(left, 0);
+    simulation.pin(left, n * (n - 1));
+    std::vector<Stitch> stitches;
+    for (int row = 0; row + 1 < n; ++row) stitches.push_back({n * row + n - 1, n * row, n * (row + 1), 0.5});
+    simulation.add_seam(left, right, stitches, {.over = 0.0, .stiffness = stiffness});
+    long newton = 0, linear = 0;
+    for (int step = 0; step < 20; ++step) {
+        const StepReport report = simulation.step();
+        REQUIRE(report.ok());
+        newton += report.newton_iterations;
+        linear += report.linear_iterations;
+    }
+    return static_cast<double>(linear) / static_cast<double>(newton);
+}
+
 }  // namespace
 
 TEST_CASE("Schemes keep their order, in gap and in work, while a seam closes", "[law]") {
@@ -169,28 +191,6 @@ TEST_CASE("Sides of unequal sampling are sewn vertex to point, and momentum is k
     const auto& [vertex, from, to, share] = stitches[6];
     CHECK((simulation.positions(fine)[vertex] - ((1.0 - share) * x[from] + share * x[to])).norm() ==
           Approx(gaps[6]).margin(1e-12));
-}
-
-/// Iterations of the linear solver for each of Newton's, of two sheets sewn vertex to point along a side.
-double multigrid_iterations(double stiffness) {
-    constexpr int n = 25;
-    Simulation simulation({.linear_solver = LinearSolver::multigrid});
-    const ClothId left = simulation.add_cloth(make_grid(0.5, 0.5, n, n), sheet_fabric(), {}, "left");
-    const ClothId right =
-        simulation.add_cloth(make_grid(0.5, 0.5, n, n), sheet_fabric(), {.translation = {0.502, 0, 0}}, "right");
-    simulation.pin(left, 0);
-    simulation.pin(left, n * (n - 1));
-    std::vector<Stitch> stitches;
-    for (int row = 0; row + 1 < n; ++row) stitches.push_back({n * row + n - 1, n * row, n * (row + 1), 0.5});
-    simulation.add_seam(left, right, stitches, {.over = 0.0, .stiffness = stiffness});
-    long newton = 0, linear = 0;
-    for (int step = 0; step < 20; ++step) {
-        const StepReport report = simulation.step();
-        REQUIRE(report.ok());
-        newton += report.newton_iterations;
-        linear += report.linear_iterations;
-    }
-    return static_cast<double>(linear) / static_cast<double>(newton);
 }
 
 TEST_CASE("Stiff stitches to points cost multigrid less than 2.2 times the iterations") {

@@ -185,6 +185,7 @@ def judge_scenes(folder, out, change, as_built):
         differ += text != built[1]
         if code is not None:
             before, now = [before[0] + built[2], before[1] + built[3]], [now[0] + newton, now[1] + linear]
+    shutil.rmtree(out, ignore_errors=True)
     return {'differ': differ, 'newton': now[0] / max(before[0], 1), 'linear': now[1] / max(before[1], 1)}
 
 
@@ -215,7 +216,7 @@ def examine(folder, constant, built, worker):
 def unnoticed(results):
     """The constants that no test failed and in whose scenes less than 1 % of the iterations changed."""
     def is_small(r):
-        return not r.get('test') and abs(r['newton'] - 1) < 0.01 and abs(r['linear'] - 1) < 0.01
+        return not r.get('test') and iterations_changed(r) < 0.01
     return [name for name, found in results.items() if all(is_small(r) for r in found.values())]
 
 
@@ -249,12 +250,33 @@ def as_built(folder):
     return scenes, seconds
 
 
+def iterations_changed(r):
+    return max(abs(r['newton'] - 1), abs(r['linear'] - 1))
+
+
+def what_noticed(found):
+    """Kind, changes and words of what noticed a constant."""
+    for factor, r in found.items():
+        if r.get('test'):
+            return 'a test', factor, r['test']
+    factor, r = max(found.items(), key=lambda item: (iterations_changed(item[1]), item[1]['differ']))
+    if iterations_changed(r) >= 0.01:
+        return 'iterations', factor, f'{r["newton"] - 1:+.1%} Newton, {r["linear"] - 1:+.1%} linear iterations'
+    if r['differ']:
+        return 'bits', factor, f'bits of {r["differ"]} scenes alone'
+    return 'nothing', ', x '.join(found), 'nothing'
+
+
 def table(constants, results):
-    print('| constant | value | changed to | noticed by | scenes that differ | Newton | linear |\n|---|---|---|---|---|---|---|')
-    for constant in constants:
-        for factor, r in results.get(constant.name, {}).items():
-            scenes = '| | | |' if 'differ' not in r else f'| {r["differ"]} | {r["newton"] - 1:+.1%} | {r["linear"] - 1:+.1%} |'
-            print(f'| `{constant.name}` | {constant.text} | x {factor} | {r.get("test") or ""} {scenes}')
+    """Prints how many constants what noticed, and each of them."""
+    rows = [(constant, *what_noticed(results[constant.name])) for constant in constants if constant.name in results]
+    kinds = ('nothing', 'bits', 'iterations', 'a test')
+    print('| noticed by | constants |\n|---|---|')
+    for kind in reversed(kinds):
+        print(f'| {kind} | {sum(row[1] == kind for row in rows)} |')
+    print('\n| constant | value | changed | noticed by |\n|---|---|---|---|')
+    for constant, _, factor, words in sorted(rows, key=lambda row: (kinds.index(row[1]), row[0].name)):
+        print(f'| `{constant.name}` | {constant.text} | x {factor} | {words} |')
 
 
 def main():
