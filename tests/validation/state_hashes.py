@@ -65,11 +65,15 @@ def hashes_of(folder):
     return len(rows), rows[-1]['status'], rows[-1]['state_hash'], rows[-1]['contact_hash'], digest
 
 
-def run(program, scene, settings, flags, folder):
+def run_command(program, scene, settings, flags, folder):
     command = [program, 'run', str(scene), '--replay-hash', '--frames', 'none', '--quiet', '-o', str(folder), *flags]
     for setting in settings:
         command += ['--set', setting]
-    return subprocess.run(command, capture_output=True, text=True)
+    return command
+
+
+def run(program, scene, settings, flags, folder):
+    return subprocess.run(run_command(program, scene, settings, flags, folder), capture_output=True, text=True)
 
 
 def measure(job):
