@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Whether cloth comes to rest: rest_scenes.py PERCALE FOLDER [--count 50] [--steps 30 60 240] [--only KIND]
+"""Whether cloth comes to rest: rest_scenes.py PERCALE FOLDER [--count 60] [--steps 30 60 240] [--only KIND]
 
-Draws scenes of ten kinds with a fixed seed (folds, stacks of 1 to 20, crumples, lifted edges, a weight in a held sheet, towels over
-bars, over edges, sleeves, layers on a ball, sheets on knobs), each with a random fabric, and runs each with steps of 1/30, 1/60 and
-1/240 s until rest, for at most 10 s after the last thing that moves. Prints a table: seconds to rest after that, Newton iterations a
-step, the smallest distance at the end over the thickness. Exit code 1 where one does not rest or something crosses.
+Draws scenes of twelve kinds with a fixed seed (folds, stacks of 1 to 20, crumples, lifted edges, a weight in a held sheet, towels over
+bars, over edges, sleeves, layers on a ball, sheets on knobs, strips pinched between boxes, a sleeve over a sleeve), each with a random
+fabric, and runs each with steps of 1/30, 1/60 and 1/240 s until rest, for at most 10 s after the last thing that moves. Prints a table:
+seconds to rest after that, Newton iterations a step, the smallest distance at the end over the thickness. Exit code 1 where one does
+not rest or something crosses.
 """
 import argparse
 import concurrent.futures
@@ -131,11 +132,37 @@ class Draw:
             self.obstacle(f'knob{i}', 'shape = { sphere = { radius = 0.012 } }', (0.1 * (i % 3 - 1), -0.012, 0.1 * (i // 3 - 1)))
         self.cloth('sheet', (0.35, 0.35), (24, 24), (self.pick(-0.02, 0.02), 1.5 * self.thickness, self.pick(-0.02, 0.02)))
 
+    def pinch(self):
+        """One to three strips between boxes, within them or hanging out on both sides."""
+        layers, length = self.random.choice([1, 2, 3]), self.random.choice([0.16, self.pick(0.35, 0.55)])
+        aside = self.pick(-0.02, 0.02) if length < 0.2 else self.pick(-0.05, 0.05)
+        for layer in range(layers):
+            self.cloth(f'strip{layer}', (0.15, length), (9, round(length / 0.02) + 1), (0.0, 1.05 * self.thickness * (layer + 1), aside))
+        self.obstacle('lower', 'shape = { box = { size = [0.25, 0.3, 0.2] } }', (0.0, -0.15, 0.0))
+        start, end = ((layers + 1) * self.thickness * share for share in (1.5, self.pick(0.65, 1.0)))
+        motion = ', '.join(f'{{ time = {time}, translation = [0.0, {0.05 + gap:.5f}, 0.0] }}' for time, gap in ((0.1, start), (0.5, end)))
+        self.obstacle('upper', f'shape = {{ box = {{ size = [0.25, 0.1, 0.2] }} }}\nmotion = [{motion}]', (0.0, 0.05 + start, 0.0))
+        self.last = 0.5
+
+    def worn_layers(self):
+        """Two taut sleeves on an arm, the outer one shorter and over a part of the inner one."""
+        radius, around = self.pick(0.03, 0.08), self.random.choice([20, 30, 44])
+        self.obstacle('arm', f'shape = {{ capsule = {{ radius = {radius:.5f}, height = 0.5 }} }}')
+        outside = radius
+        for layer, (name, length) in enumerate([('inner', 0.2), ('outer', self.pick(0.1, 0.16))], 1):
+            outside = outside / math.cos(math.pi / around) + 1.5 * self.thickness
+            rows = round(length * around / (2 * math.pi * radius)) + 1
+            worn = self.tube(f'{name}_worn', outside, around, rows, length)
+            rest = self.tube(f'{name}_rest', (radius + layer * self.thickness) / self.pick(1.08, 1.3), around, rows, length)
+            half, up = self.pick(-0.3, 0.3), self.pick(-0.04, 0.04)
+            self.parts.append(f'[[cloth]]\nname = "{name}"\nfabric = "f"\nmesh = "{worn}"\nrest = "{rest}"\npose = {{ translation = [0.0, {up:.5f}, '
+                              f'0.0], rotation = [{math.cos(half)}, 0.0, {math.sin(half)}, 0.0] }}\n')
+
     def text(self):
         return f'title = "{self.kind}"\nduration = "rest"\nmax_duration = {self.last + PATIENCE}\n[expect]\nintersections = 0\n' + ''.join(self.parts)
 
 
-KINDS = ('fold', 'stack', 'crumple', 'lifted', 'pouch', 'bar', 'edge', 'sleeve', 'layers', 'knobs')
+KINDS = ('fold', 'stack', 'crumple', 'lifted', 'pouch', 'bar', 'edge', 'sleeve', 'layers', 'knobs', 'pinch', 'worn_layers')
 
 
 def run(program, draw, rate):
@@ -157,7 +184,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('program')
     parser.add_argument('folder', type=lambda text: Path(text).resolve())
-    parser.add_argument('--count', type=int, default=50)
+    parser.add_argument('--count', type=int, default=60)
     parser.add_argument('--steps', type=int, nargs='+', default=[30, 60, 240])
     parser.add_argument('--only', choices=KINDS)
     arguments = parser.parse_args()
