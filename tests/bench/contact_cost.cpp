@@ -15,7 +15,7 @@
 #include "engine/model/cloth_model.h"
 #include "percale/detectors.h"
 #include "tests/bench/bench_report.h"
-#include "tests/bench/bench_scenes.h"
+#include "tests/bench/scenes/bench_scenes.h"
 #include "tests/support/bench_unit.h"
 
 namespace {

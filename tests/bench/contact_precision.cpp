@@ -6,28 +6,22 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <functional>
 #include <limits>
 #include <map>
-#include <numbers>
-#include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "data/generators/mannequin.h"
-#include "data/generators/poncho.h"
-#include "percale/detectors.h"
 #include "percale/simulation.h"
 #include "scenes/common/whole_file.h"
 #include "scenes/report/plot_svg.h"
 #include "tests/bench/bench_report.h"
-#include "tests/bench/bench_scenes.h"
-#include "tests/support/bench_unit.h"
+#include "tests/bench/scenes/contact_precision_scenes.h"
 
 namespace {
 
 using namespace percale;
+using test::ContactScene;
 using test::Figures;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -37,21 +31,13 @@ constexpr int frames_per_second = 30;
 constexpr int observable_count = 6;
 constexpr const char* observable_names[observable_count] = {"height", "lowest", "aside", "kinetic", "elastic", "force"};
 using Observables = std::array<double, observable_count>;
-using Placement = Eigen::Isometry3d;
 
 /// A stopping rule of the solver.
 struct Rule {
     std::string name;
     Scheme scheme = Scheme::backward_euler;
-    double share = 0.25;
+    double newton_error_ratio = 1.0;
     int iterations = 50;
-};
-
-/// A scene of the table, without step and rule.
-struct SceneKind {
-    std::string name;
-    double seconds = 1.0;
-    std::function<Simulation(int n, const StepSettings& settings, const Placement& disturbed)> make;
 };
 
 /// The mean over an ensemble in each frame, its standard error, and its cost.
@@ -63,97 +49,35 @@ struct Ensemble {
     std::string failure;
 };
 
-Placement moved(double x, double y, double z) { return Placement(Eigen::Translation3d(x, y, z)); }
-
-Placement turned(double angle, const Vec3& axis) { return Placement(Eigen::AngleAxisd(angle, axis.normalized())); }
-
-TriangleMesh placed(TriangleMesh mesh, const Placement& placement) {
-    for (Vec3& x : mesh.vertices) x = placement * x;
-    return mesh;
-}
-
-/// One of the disturbed starts: a few millimetres and degrees off.
-Placement disturbed_start(int number) {
-    std::mt19937 random(static_cast<unsigned>(number) + 1);
-    std::uniform_real_distribution<double> part(-1.0, 1.0);
-    const double x = part(random), y = part(random), z = part(random), angle = part(random), tilt = part(random);
-    return moved(0.01 * x, 0.002 * y, 0.01 * z) * turned(0.1 * angle, {0.05 * tilt, 1.0, 0.05});
-}
-
-Simulation make_scene(const TriangleMesh& cloth, const Fabric& fabric, const TriangleMesh& body, const StepSettings& settings) {
-    Simulation simulation(settings, make_fcl_detector());
-    simulation.add_cloth(cloth, fabric);
-    simulation.add_obstacle(body);
-    return simulation;
-}
-
-Simulation make_drop(int n, const TriangleMesh& body, const StepSettings& settings, const Placement& disturbed) {
-    return make_scene(placed(make_grid(1.0, 1.0, n, n), disturbed * moved(0.0, 0.45, 0.0)), test::bench_fabric(), body, settings);
-}
-
-/// A sheet laid just above a slope of 25 degrees, with a friction of 0.3: it slides.
-Simulation make_slide(int n, const StepSettings& settings, const Placement& disturbed) {
-    const Placement slope = turned(-25.0 * std::numbers::pi / 180.0, Vec3::UnitZ());
-    const Vec3 offset = disturbed.translation();
-    const TriangleMesh sheet = placed(make_grid(0.5, 0.5, n, n), slope * moved(offset.x(), 0.0052, offset.z()));
-    return make_scene(sheet, test::bench_fabric(), placed(make_plane(5.0), slope), settings);
-}
-
-Simulation make_poncho_scene(int n, const StepSettings& settings, const Placement& disturbed) {
-    const Fabric felt{.area_density = 0.25, .springs = {.structural = 500.0, .shear = 0.0, .bend = 5.0}, .spring_damping = 1.0};
-    static const TriangleMesh body = scenes::make_mannequin(0.015);
-    const TriangleMesh poncho = scenes::make_poncho({.edge_length = n > 40 ? 0.018 : 0.036});
-    return make_scene(placed(poncho, moved(0.0, 1.53, 0.0) * disturbed), felt, body, settings);
-}
-
-/// A sheet lowered onto the floor, where it folds on itself.
-Simulation make_fold(int n, const StepSettings& settings, const Placement& disturbed) {
-    Fabric fabric = test::bench_fabric();
-    fabric.self_contact = true;
-    const Placement upright = moved(0.0, 0.52, 0.0) * disturbed * turned(0.5 * std::numbers::pi, Vec3::UnitX());
-    return make_scene(placed(make_grid(0.4, 1.0, (2 * n) / 5, n), upright), fabric, make_plane(2.0), settings);
-}
-
-std::vector<SceneKind> all_scenes() {
-    static const TriangleMesh ball = make_sphere(0.25, 4), bunny = test::bunny_scan();
-    std::vector<SceneKind> kinds;
-    const auto drop = [](const TriangleMesh& body) {
-        return [&body](int n, const StepSettings& s, const Placement& p) { return make_drop(n, body, s, p); };
-    };
-    kinds.push_back({"sphere", 1.0, drop(ball)});
-    if (!bunny.triangles.empty()) kinds.push_back({"scan", 1.0, drop(bunny)});
-    kinds.push_back({"incline", 1.0, make_slide});
-    kinds.push_back({"poncho", 1.0, make_poncho_scene});
-    kinds.push_back({"fold", 1.0, make_fold});
-    return kinds;
-}
-
-/// Momentum, kg m/s; `force` is made of its differences.
-Vec3 momentum(const Simulation& simulation, ClothId cloth) {
-    const auto velocities = simulation.velocities(cloth);
-    const auto masses = simulation.masses(cloth);
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t i = 0; i < masses.size(); ++i) sum += masses[i] * velocities[i];
-    return sum;
-}
-
-Observables observe(const Simulation& simulation, ClothId cloth, double contact_force) {
-    const auto positions = simulation.positions(cloth);
-    const auto masses = simulation.masses(cloth);
-    Vec3 centre = Vec3::Zero();
+/// Sums over the vertices of all cloths; SI units.
+struct Totals {
     double mass = 0.0, lowest = infinity;
-    for (std::size_t i = 0; i < masses.size(); ++i) {
-        centre += masses[i] * positions[i];
-        mass += masses[i];
-        lowest = std::min(lowest, positions[i].y());
+    Vec3 moment = Vec3::Zero(), momentum = Vec3::Zero();  // of masses; `force` is made of differences of momentum
+};
+
+Totals totals_of(const Simulation& simulation) {
+    Totals totals;
+    for (int cloth = 0; cloth < simulation.cloth_count(); ++cloth) {
+        const auto positions = simulation.positions({cloth}), velocities = simulation.velocities({cloth});
+        const auto masses = simulation.masses({cloth});
+        for (std::size_t i = 0; i < masses.size(); ++i) {
+            totals.mass += masses[i];
+            totals.moment += masses[i] * positions[i];
+            totals.momentum += masses[i] * velocities[i];
+            totals.lowest = std::min(totals.lowest, positions[i].y());
+        }
     }
-    centre /= mass;
+    return totals;
+}
+
+Observables observe(const Simulation& simulation, const Totals& totals, double force) {
+    const Vec3 centre = totals.moment / totals.mass;
     const StepEnergy energy = simulation.energy();
-    return {centre.y(), lowest, std::hypot(centre.x(), centre.z()), energy.kinetic, energy.elastic, contact_force};
+    return {centre.y(), totals.lowest, std::hypot(centre.x(), centre.z()), energy.kinetic, energy.elastic, force};
 }
 
 struct Task {
-    const SceneKind* kind = nullptr;
+    const ContactScene* kind = nullptr;
     int n = 0;
     int steps_per_second = 0;
     Rule rule;
@@ -162,19 +86,16 @@ struct Task {
 void run_one(const Task& task, int start, std::vector<Observables>& frames, Ensemble& ensemble) {
     const StepSettings settings{.time_step = 1.0 / task.steps_per_second,
                                 .scheme = task.rule.scheme,
-                                .newton_error_ratio = task.rule.share,
+                                .newton_error_ratio = task.rule.newton_error_ratio,
                                 .newton_iterations = task.rule.iterations,
                                 .measure = StepMeasures::none};
-    Simulation simulation = task.kind->make(task.n, settings, disturbed_start(start));
-    const ClothId cloth{0};
+    Simulation simulation = task.kind->make(task.n, settings, start);
     const int between = task.steps_per_second / frames_per_second;
-    const auto masses = simulation.masses(cloth);
-    double mass = 0.0;
-    for (const double m : masses) mass += m;
-    ensemble.weight = 9.81 * mass;
-    Vec3 last = momentum(simulation, cloth);
+    Totals last = totals_of(simulation);
+    ensemble.weight = 9.81 * last.mass;
     const int count = static_cast<int>(std::lround(task.kind->seconds * task.steps_per_second));
     for (int i = 1; i <= count; ++i) {
+        if (task.kind->drive) task.kind->drive(simulation, i * settings.time_step);
         const StepReport report = simulation.step();
         ensemble.cpu_s += report.cpu_s;
         ensemble.newton += report.newton_iterations;
@@ -186,8 +107,9 @@ void run_one(const Task& task, int start, std::vector<Observables>& frames, Ense
         }
         if (i % between != 0) continue;
         ensemble.largest_strain = std::max(ensemble.largest_strain, simulation.largest_strain());
-        const Vec3 now = momentum(simulation, cloth);
-        frames.push_back(observe(simulation, cloth, (now - last).y() * frames_per_second + ensemble.weight));
+        const Totals now = totals_of(simulation);
+        const double force = (now.momentum - last.momentum).y() * frames_per_second + ensemble.weight;
+        frames.push_back(observe(simulation, now, force));
         last = now;
     }
 }
@@ -223,10 +145,10 @@ double range_of(const Ensemble& ensemble, int observable) {
     return high - low;
 }
 
-/// The scales of the errors: the largest displacement of a length, the range of the kinetic energy, the weight.
+/// The scales of the errors: the largest displacement of a length, the larger range of both energies, the weight.
 Observables scales_of(const Ensemble& reference) {
     const double length = std::max({range_of(reference, 0), range_of(reference, 1), range_of(reference, 2)});
-    const double energy = range_of(reference, 3);
+    const double energy = std::max(range_of(reference, 3), range_of(reference, 4));
     return {length, length, length, energy, energy, reference.weight};
 }
 
@@ -255,11 +177,11 @@ std::vector<Observables> difference(const Ensemble& a, const Ensemble& b) {
 }
 
 struct Options {
-    std::vector<std::string> scenes = {"sphere", "scan", "incline", "poncho", "fold"};
+    std::vector<std::string> scenes;
     std::vector<int> sizes = {33, 65};
     std::vector<int> steps = {30, 60, 120, 240, 480};
-    std::vector<double> shares = {0.1, 0.25, 0.5, 1.0, 2.0, 4.0};
-    std::vector<double> tr_shares;
+    std::vector<double> ratios = {0.1, 0.25, 0.5, 1.0, 2.0, 4.0};
+    std::vector<double> tr_ratios;
     bool linearised = false;
     int starts = 8;
     int finest = 960;
@@ -269,13 +191,13 @@ struct Options {
 std::vector<Rule> rules_of(const Options& options) {
     std::vector<Rule> rules;
     char name[64];
-    for (const double share : options.shares) {
-        std::snprintf(name, sizeof name, "share %g", share);
-        rules.push_back({.name = name, .share = share});
+    for (const double ratio : options.ratios) {
+        std::snprintf(name, sizeof name, "R %g", ratio);
+        rules.push_back({.name = name, .newton_error_ratio = ratio});
     }
-    for (const double share : options.tr_shares) {
-        std::snprintf(name, sizeof name, "tr_bdf2 %g", share);
-        rules.push_back({.name = name, .scheme = Scheme::tr_bdf2, .share = share});
+    for (const double ratio : options.tr_ratios) {
+        std::snprintf(name, sizeof name, "tr_bdf2 R %g", ratio);
+        rules.push_back({.name = name, .scheme = Scheme::tr_bdf2, .newton_error_ratio = ratio});
     }
     if (options.linearised) rules.push_back({.name = "linearised", .iterations = 1});
     return rules;
@@ -325,7 +247,7 @@ scenes::Plot plot_of(const Figures& rows, int n) {
 }
 
 void print_row(const Figures& row) {
-    std::printf("%-8s %4d %-6s %-12s %8.3f %8.4f %7.4f %6.2f %5d %6.3f  ", row["scene"].get<std::string>().c_str(),
+    std::printf("%-11s %4d %-6s %-14s %8.3f %8.4f %7.4f %6.2f %5d %6.3f  ", row["scene"].get<std::string>().c_str(),
                 row["n"].get<int>(), row["step"].get<std::string>().c_str(), row["rule"].get<std::string>().c_str(),
                 row["cpu_s"].get<double>(), row["error"].get<double>(), row["noise"].get<double>(),
                 row["newton_a_step"].get<double>(), row["dropped"].get<int>(), row["strain"].get<double>());
@@ -334,8 +256,9 @@ void print_row(const Figures& row) {
     std::fflush(stdout);
 }
 
-void measure_scene(const SceneKind& kind, int n, const Options& options, Figures& rows) {
-    const Ensemble reference = run_ensemble({&kind, n, options.finest, {.name = "reference", .share = 0.1}}, options.starts);
+void measure_scene(const ContactScene& kind, int n, const Options& options, Figures& rows) {
+    const Ensemble reference =
+        run_ensemble({&kind, n, options.finest, {.name = "reference", .newton_error_ratio = 0.1}}, options.starts);
     if (!reference.failure.empty()) throw std::runtime_error(kind.name + ": the reference failed: " + reference.failure);
     const double noise = together(errors_of(reference.deviation, scales_of(reference)));
     std::vector<Figures> own, failed;
@@ -344,7 +267,7 @@ void measure_scene(const SceneKind& kind, int n, const Options& options, Figures
             const Task task{&kind, n, steps, rule};
             const Ensemble run = run_ensemble(task, options.starts);
             if (!run.failure.empty()) {
-                std::printf("%-8s %4d 1/%d %s: %s\n", kind.name.c_str(), n, steps, rule.name.c_str(), run.failure.c_str());
+                std::printf("%-11s %4d 1/%d %s: %s\n", kind.name.c_str(), n, steps, rule.name.c_str(), run.failure.c_str());
                 failed.push_back({{"scene", kind.name},
                                   {"n", n},
                                   {"step", "1/" + std::to_string(steps)},
@@ -366,15 +289,14 @@ void measure_scene(const SceneKind& kind, int n, const Options& options, Figures
         for (const Figures& row : list) rows.push_back(row);
 }
 
-Figures measure(const Options& options) {
-    std::printf("%-8s %4s %-6s %-12s %8s %8s %7s %6s %5s %6s  ", "scene", "N", "step", "rule", "CPU s", "error", "noise",
+Figures measure(const Options& options, const std::vector<ContactScene>& kinds) {
+    std::printf("%-11s %4s %-6s %-14s %8s %8s %7s %6s %5s %6s  ", "scene", "N", "step", "rule", "CPU s", "error", "noise",
                 "newton", "drop", "strain");
     for (const char* name : observable_names) std::printf(" %7s", name);
     std::printf("\n");
     Figures rows = Figures::array();
-    const std::vector<SceneKind> kinds = all_scenes();
     for (const int n : options.sizes)
-        for (const SceneKind& kind : kinds)
+        for (const ContactScene& kind : kinds)
             if (std::find(options.scenes.begin(), options.scenes.end(), kind.name) != options.scenes.end())
                 measure_scene(kind, n, options, rows);
     if (!options.svg.empty()) scenes::write_whole_file(options.svg, scenes::plot_svg(plot_of(rows, options.sizes.back())));
@@ -386,23 +308,25 @@ Figures measure(const Options& options) {
 int main(int argc, char** argv) {
     CLI::App app("Error of observables against CPU time, by step and stopping rule, in scenes with contact.",
                  "percale_contact_precision");
+    const std::vector<ContactScene> kinds = percale::test::contact_scenes();
     Options options;
+    for (const ContactScene& kind : kinds) options.scenes.push_back(kind.name);
     const CLI::Validator in_frames(
         [](const std::string& text) {
             const int rate = std::atoi(text.c_str());
             return rate > 0 && rate % frames_per_second == 0 ? "" : text + " is no multiple of 30";
         },
         "a multiple of 30");
-    app.add_option("--scenes", options.scenes, "sphere, scan, incline, poncho, fold")
+    app.add_option("--scenes", options.scenes, "names of scenes; scan only where that is installed")
         ->capture_default_str()
         ->check(CLI::IsMember(options.scenes));
     app.add_option("--sizes", options.sizes, "vertices along a side")->capture_default_str()->check(CLI::Range(9, 257));
     app.add_option("--steps", options.steps, "steps a second")->capture_default_str()->check(in_frames);
-    app.add_option("--shares", options.shares, "StepSettings::newton_share of backward Euler")->capture_default_str();
-    app.add_option("--tr-bdf2", options.tr_shares, "and of TR-BDF2");
+    app.add_option("--ratios", options.ratios, "StepSettings::newton_error_ratio of backward Euler, R")->capture_default_str();
+    app.add_option("--tr-bdf2", options.tr_ratios, "and of TR-BDF2");
     app.add_flag("--linearised", options.linearised, "backward Euler with one iteration, too");
     app.add_option("--starts", options.starts, "disturbed starts of each row")->capture_default_str()->check(CLI::Range(1, 64));
     app.add_option("--finest", options.finest, "steps a second of the reference")->capture_default_str()->check(in_frames);
     app.add_option("--svg", options.svg, "draws error against CPU time of the last size to this file");
-    return percale::test::run_bench(app, argc, argv, [&] { return measure(options); });
+    return percale::test::run_bench(app, argc, argv, [&] { return measure(options, kinds); });
 }

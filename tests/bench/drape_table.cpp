@@ -10,7 +10,7 @@
 #include "percale/detectors.h"
 #include "percale/options.h"
 #include "tests/bench/bench_report.h"
-#include "tests/bench/bench_scenes.h"
+#include "tests/bench/scenes/bench_scenes.h"
 #include "tests/support/bench_unit.h"
 
 namespace {

@@ -18,7 +18,7 @@
 #include "scenes/meshes/mesh_import.h"
 #include "scenes/meshes/obj_file.h"
 #include "tests/bench/bench_report.h"
-#include "tests/bench/bench_scenes.h"
+#include "tests/bench/scenes/bench_scenes.h"
 #include "tests/support/cpu_time.h"
 
 namespace {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "tests/bench/bench_report.h"
-#include "tests/bench/bench_scenes.h"
+#include "tests/bench/scenes/bench_scenes.h"
 #include "tests/support/bench_unit.h"
 
 namespace {
