@@ -89,6 +89,8 @@ MACHINE_PATH = re.compile(r'(?<![\w.}])/(?:work|root|home)/|(?<![\w.}])/tmp/[A-Z
 EIGEN_IN_PUBLIC = re.compile(
     r'\b(?:(?:Row)?Vector[24X][dfi]?|Matrix(?:[24X][dfi]?|[23]X[dfi]?|X[23][dfi]?)|Array(?:XX?|[24])[dfi]?|Quaternion[df]?'
     r'|(?:Isometry|Affine|Transform|Projective)[23]?[df]?|SparseMatrix|Dynamic)\b')
+TITLE = re.compile(r'(?:TEST_CASE|SECTION)\(\s*((?:"(?:[^"\\]|\\.)*"\s*)+)')
+MAX_COLON = 70
 OWN_NAMESPACE = re.compile(r'^namespace (percale::[\w:]+) \{$', re.M)
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(["<])([^">\n]+)[">]', re.M)
 COMMENT = re.compile(r'//[^\n]*|/\*.*?\*/', re.S)
@@ -431,6 +433,16 @@ def check_test_namespaces(tree):
             tree.complain(path, 1, f'a case outside namespace {own[0]}')
 
 
+def check_test_titles(tree):
+    """Catch 2 writes the rest of a title beside what stands before its first colon; from some 75 columns on the report of a failure
+    never ends."""
+    for path in tree.code('tests'):
+        for found in TITLE.finditer(tree.text[path]):
+            colon = ''.join(re.findall(r'"((?:[^"\\]|\\.)*)"', found.group(1))).find(': ')
+            if colon > MAX_COLON:
+                tree.complain(path, line_of(tree.text[path], found.start()), f'first colon of a title too far right ({colon}, {MAX_COLON})')
+
+
 def check_test_size(tree):
     library = sum(code_lines(tree.text[path]) for path in tree.code(*LIBRARY))
     tests = sum(code_lines(tree.text[path]) for path in tree.code('tests'))
@@ -441,7 +453,7 @@ def check_test_size(tree):
 
 RULES = (check_top_level, check_directions, check_rooms, check_collision_folders, check_cycles, check_modules,
          check_folder_sizes, check_mirror, check_public_headers, check_names, check_texts, check_test_namespaces,
-         check_readmes, check_paths, check_glossary)
+         check_test_titles, check_readmes, check_paths, check_glossary)
 
 
 def check(root):

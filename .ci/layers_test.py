@@ -71,6 +71,13 @@ class Rules(unittest.TestCase):
         self.caught('tests/engine/more/shapes_test.cpp', text, 'is that of tests/engine/model/shapes_test.cpp, too')
         self.assertEqual(violations({'tests/engine/more/shapes_test.cpp': text.replace('::shapes_test', '::more_shapes_test')}), [])
 
+    def test_titles_of_tests(self):
+        path = 'tests/engine/model/shapes_test.cpp'
+        inside = '}  // namespace'
+        named = lambda columns: CLEAN[path].replace(inside, f'TEST_CASE("{"a" * 30}"\n"{"b" * (columns - 30)}: c") {{}}\n{inside}', 1)
+        self.caught(path, named(71), 'first colon of a title too far right (71, 70)')
+        self.assertEqual(violations({path: named(70)}), [])
+
     def test_a_clean_tree_passes(self):
         self.assertEqual(violations(), [])
 

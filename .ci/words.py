@@ -38,8 +38,6 @@ GLOSSARY = [
     Word('row_share', 'edge-edge mollifier', CODE, True),
     Word('standing', 'persistent', ('collision/lists', 'collision/detector', 'tests/collision/lists')),
     Word('contact_memory', 'warm start', CODE, True),
-    Word('foreseen', 'trial contacts, or extrapolated', CODE, True),
-    Word('foresee', 'find trial contacts, or extrapolate', CODE, True),
     Word('self_group', 'island', CODE, True),
     Word('group', 'island', ('collision/self', 'tests/collision/self')),
     Word('cut', 'clamp', ('collision/self', 'collision/geometry', 'collision/lists', 'collision/detector')),

@@ -50,10 +50,8 @@ void NewtonSystem::begin_stage(const ImplicitStage& stage) {
 void NewtonSystem::fill(const StageEquations& equations, const StagePoint& point, const DirectionTask& task) {
     const ImplicitStage& stage = equations.stage();
     StageTimer timer(equations.times().setup);
-    solver.fill(point.forces.spring_terms, task.trial_contacts ? task.trial_contacts->blocks : point.contact.blocks,
-                point.forces.blocks);
+    solver.fill(point.forces.spring_terms, point.contact.blocks, point.forces.blocks);
     set_each(stage.scene.compute, point.residual, point.residual, right_side, [](double r, double) { return 0.0 - r; });
-    if (task.trial_contacts) task.trial_contacts->add_to(stage.scene.script.free, right_side);
     leave_settled(stage.scene.model, task.bodies, right_side);
     if (!stage.scene.plan.obstacles_move || equations.arrived(point)) return;
     const double rate = (stage.substep.to - point.fraction) / stage.base.h;

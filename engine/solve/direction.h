@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "body_states.h"
-#include "contact/trial_contacts.h"
 #include "linear/linear_solver.h"
 #include "rigid_mode_correction.h"
 #include "stage_equations.h"
@@ -20,7 +19,6 @@ struct Direction {
 struct DirectionTask {
     const BodyStates& bodies;  // settled ones stay where they are
     const SolveTarget& target;
-    const TrialContacts* trial_contacts = nullptr;  // of a move from the point; matrix and right side include them
 };
 
 /// The linear systems of a stage: A dv = -r with the matrix A of linear/block_matrix.h, which is M without Jacobians. Prescribed

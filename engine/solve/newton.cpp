@@ -116,12 +116,11 @@ private:
             if (norm_ == 0.0 || !std::isfinite(norm_)) return false;
             if (meets_tolerance()) return true;
             if (report_.newton_iterations >= std::min(settings_.newton_iterations, space_.iterations_left)) return false;
-            if (next_change_is_small()) return true;
+            if (!relaxed && next_change_is_small()) return true;
             if (is_out_of_time()) return false;
 
             // Once an iteration: the result is examined anew, but not by a matrix that was filled in for a subset.
             relaxed = !relaxed && report_.newton_iterations >= iterations_before_subsets && relax_subsets();
-            matrix_is_old_ = matrix_is_old_ || relaxed;
             if (relaxed) continue;
             iterate();
             if (line_solved_ || settings_.newton_iterations == 1) break;
@@ -137,39 +136,13 @@ private:
         SolveTarget target = solve_target(error_, progress, settings_, current_.velocities);
         target.deadline = later(space_.time.deadline, linear_grace_s);  // an interrupted solve gives a bad direction
         space_.system.find_direction(equations_, current_, {space_.bodies, target}, space_.direction);
-        const bool may_stop = arrived() && report_.newton_iterations + 1 < settings_.newton_iterations;
-        LineResult line = search_line(may_stop ? &space_.trial_contacts : nullptr);
-        if (line.met_contacts) {
-            count_iteration();
-            turn_to_contacts(target);
-            line = search_line(nullptr);
-        }
-        count_iteration();
-        report_.line_search_cuts += line.backtracks;
-        last_norm_ = norm_;
-        matrix_is_old_ = line.went_on;
-        line_solved_ = is_solution(line);
-    }
-
-    LineResult search_line(TrialContacts* trial_contacts) {
-        const LineTask task{error_, space_.direction.velocity, space_.bodies, trial_contacts};
-        return percale::search_line(equations_, task, current_, space_.trial);
-    }
-
-    /// Replaces the direction by that with the trial contacts found. Contacts out of range are not in the residual yet: where the
-    /// move to where they hold the cloth leads uphill, the direction stays.
-    void turn_to_contacts(const SolveTarget& target) {
-        Direction& found = space_.direction_with_trials;
-        space_.system.find_direction(equations_, current_, {space_.bodies, target, &space_.trial_contacts}, found);
-        if (dot(scene_.compute, current_.residual, found.velocity) < 0.0)
-            std::swap(space_.direction, found);
-        else
-            space_.direction.linear_iterations = found.linear_iterations;
-    }
-
-    void count_iteration() {
+        const LineTask task{error_, space_.direction.velocity, space_.bodies};
+        const LineResult line = search_line(equations_, task, current_, space_.trial);
         ++report_.newton_iterations;
         report_.linear_iterations += space_.direction.linear_iterations;
+        report_.line_search_cuts += line.backtracks;
+        last_norm_ = norm_;
+        line_solved_ = is_solution(line);
     }
 
     bool relax_subsets() {
@@ -189,7 +162,8 @@ private:
 
     bool is_out_of_time() {
         if (is_cancelled(space_.time.deadline)) return true;
-        if (report_.newton_iterations == 0 || !is_past(space_.time.deadline)) return false;
+        // The matrix of the first iteration does not hold the contacts that its move meets.
+        if (report_.newton_iterations < 2 || !is_past(space_.time.deadline)) return false;
         report_.out_of_time = arrived() || --space_.time.late_iterations < 0;
         return report_.out_of_time;
     }
@@ -197,7 +171,7 @@ private:
     /// Whether another iteration would change little, estimated by applying the preconditioner to the residual: far cheaper than
     /// the iteration.
     bool next_change_is_small() {
-        if (report_.newton_iterations == 0 || by_residual() || !arrived() || matrix_is_old_) return false;
+        if (report_.newton_iterations == 0 || by_residual() || !arrived()) return false;
         if (!space_.system.estimate_direction(equations_, current_, space_.direction)) return false;
         const NewtonChange change{current_.residual, space_.direction.velocity, current_.velocities,
                                   current_.constraints.size() > 0};
@@ -223,7 +197,7 @@ private:
     /// iteration, whose matrix may be far off; or it can gain nothing but rounding. Of a line that was cut the whole direction
     /// has to be far smaller. It may be the solution for some bodies while others go on.
     bool is_solution(const LineResult& line) {
-        const bool may_settle = (line.full_step || line.tiny) && !line.went_on && space_.direction.exact && !by_residual() &&
+        const bool may_settle = (line.full_step || line.tiny) && space_.direction.exact && !by_residual() &&
                                 report_.newton_iterations > 1 && contact_is_settled();
         if (may_settle) space_.bodies.settle_small();
         return (may_settle && line.small) || line.stuck;
@@ -262,7 +236,6 @@ private:
     NewtonReport report_;
     std::optional<double> first_norm_;     // the reference of residuals, in all rounds of contact correction
     double norm_ = 0.0, last_norm_ = 0.0;  // of the residual now and one iteration ago, m/s kg^1/2
-    bool matrix_is_old_ = false;           // the line search went beyond the point to which the matrix led
     bool line_solved_ = false;             // the last line searched ended at the solution
 };
 

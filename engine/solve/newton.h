@@ -42,8 +42,7 @@ struct NewtonSpace {
     StageSpace stage;
     NewtonSystem system;
     StagePoint current, trial;                              // the point that the search has reached, and one ahead of it
-    Direction direction, direction_with_trials;             // from it, without and with trial contacts
-    TrialContacts trial_contacts;                           // of the last move that a line search rejected
+    Direction direction;                                    // from the one to the other
     BodyStates bodies;                                      // in the rounds of contact correction
     std::vector<double> contact_accelerations[2];           // m/s^2, of each body before and after a line
     SubsetSpace subsets;                                    // of the last iteration that looked for one

@@ -89,7 +89,7 @@ TEST_CASE("On a slope a sheet sticks to a sheet and does not creep, or slides do
     }
 }
 
-TEST_CASE("A sheet split along a line, its halves side by side at rest, falls on a ball: nothing crosses, and steps are solved") {
+TEST_CASE("A split sheet, its halves side by side, falls on a ball: nothing crosses, and steps are solved") {
     const double gap = GENERATE(1e-6, 1e-5, 1e-4, 3e-4, 1e-3);
     CAPTURE(gap);
     Simulation simulation({}, make_brute_force_detector());

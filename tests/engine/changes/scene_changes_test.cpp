@@ -170,7 +170,7 @@ TEST_CASE("A fabric that the cloth cannot have is refused as by add_cloth, and n
     check_refused(s, [&] { s.set_fabric({3}, free_fabric()); }, {"no cloth 3"});
 }
 
-TEST_CASE("A fabric that the detector cannot have is refused before anything changes: loads stay, and so do all later steps") {
+TEST_CASE("A fabric that the detector cannot have is refused before anything changes (loads stay, and so do all later steps)") {
     SlopeScene plane(0.3), untouched(0.3);
     plane.run(3);
     untouched.run(3);

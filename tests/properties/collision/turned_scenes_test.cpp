@@ -102,10 +102,11 @@ double apart_after(const Path& a, const Path& b) { return largest_difference(a.a
 
 TEST_CASE("A turned or renumbered scene departs from the plain one in contact no faster than by rounding", "[law]") {
     const auto response = GENERATE(ContactResponse::penalty, ContactResponse::projection);
-    // Where Newton's method ends by its time error depends on rounding: with penalty two steps then amplify 1e-15 to 1e-5.
-    const StepSettings settings = response == ContactResponse::penalty
-                                      ? StepSettings{.time_step = 1.0 / 240.0, .newton_tolerance = 1e-8}
-                                      : StepSettings{.contact_response = response};
+    // Where Newton's method ends by its time error depends on rounding: two steps then amplify 1e-15 to 1e-5.
+    const StepSettings settings{.time_step = 1.0 / 240.0, .newton_tolerance = 1e-8, .contact_response = response};
+    // The matrix keeps springs as floats, which a general turn rounds anew. Newton's method then goes another way, and with
+    // projection, whose rounds converge linearly, it ends elsewhere within its tolerance.
+    const double solved = response == ContactResponse::penalty ? 0.0 : *settings.newton_tolerance;
     const std::string ending = response == ContactResponse::penalty ? ", penalty: " : ", projection: ";
     for (const Scene& scene : scenes()) {
         const Path plain = path_of(scene, {}, settings);
@@ -134,7 +135,7 @@ TEST_CASE("A turned or renumbered scene departs from the plain one in contact no
         const std::string on = std::string("scene turned, grid on a ") + scene.name + ending;
         check_law(on + "relative difference before it meets the body", before, 1e-12);
         check_law(on + "difference over that of disturbed scenes, quarter and half turns", exact / disturbed, max_growth);
-        check_law(on + "difference over that of disturbed scenes, other turns", general / disturbed, max_growth);
+        check_law(on + "difference over that of disturbed scenes, other turns", general / (disturbed + solved), max_growth);
         check_law(on + "difference over that of disturbed scenes, triangles renumbered", numbered / disturbed, max_growth);
     }
 }
