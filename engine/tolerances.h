@@ -76,10 +76,6 @@ constexpr double shortest_step = 1e-7;
 
 // ---- step/
 
-/// s for which cloth has to be still to sleep, and fraction of h that it may move meanwhile. Shorter, larger: slow cloth
-/// freezes. Longer, smaller: cloth at rest is solved for ever.
-constexpr double rest_time = 0.5, rest_displacement_ratio = 0.002;
-
 /// Largest motion in one part of a step: rotation of an obstacle in radians, and translations of an obstacle and of a pin in
 /// thicknesses. Larger: parts that vertices on straight lines do not follow, and lists of contacts that grow. Smaller: more
 /// parts.

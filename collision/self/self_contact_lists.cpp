@@ -175,8 +175,8 @@ void SelfContactLists::move_to(std::span<const Vec3> now) {
     std::copy(now.begin(), now.end(), memory_.seen.begin());
 }
 
-/// Makes the lists valid from `from`, where they are valid, as far towards `to` as `cover` says: the distance from where two
-/// clusters were at the start of the step is largest at an end.
+/// The lists are valid at `from`. Makes them valid up to the returned fraction of the move to `to`; displacement from where
+/// clusters were at the start of the step is largest at an end of the move.
 double SelfContactLists::cover_move(std::span<const Vec3> from, std::span<const Vec3> to) {
     double fraction = 1.0;
     std::span<const Vec3> end = to;

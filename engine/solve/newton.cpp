@@ -116,10 +116,11 @@ private:
             if (norm_ == 0.0 || !std::isfinite(norm_)) return false;
             if (meets_tolerance()) return true;
             if (report_.newton_iterations >= std::min(settings_.newton_iterations, space_.iterations_left)) return false;
+            // Not by a matrix that was filled in for a subset.
             if (!relaxed && next_change_is_small()) return true;
             if (is_out_of_time()) return false;
 
-            // Once an iteration: the result is examined anew, but not by a matrix that was filled in for a subset.
+            // Once an iteration: the result is examined anew.
             relaxed = !relaxed && report_.newton_iterations >= iterations_before_subsets && relax_subsets();
             if (relaxed) continue;
             iterate();

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
-#include "tolerances.h"
-
 namespace percale {
 namespace {
+
+/// s for which cloth has to be still to sleep, and fraction of h that it may move meanwhile. Shorter, larger: slow cloth
+/// freezes. Longer, smaller: cloth at rest is solved for ever.
+constexpr double rest_time = 0.5, rest_displacement_ratio = 0.002;
 
 /// Fraction of a vertex's weight that forces on it may leave in cloth at rest. Larger: a swing sleeps where it turns.
 constexpr double rest_force_ratio = 0.02;

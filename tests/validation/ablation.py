@@ -21,6 +21,8 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from state_hashes import iterations_of, run_command
+
 ROOT = Path(__file__).resolve().parents[2]
 ROUNDING = 1e-5  # a constant below it is a rounding
 JOBS = 2
@@ -164,17 +166,11 @@ def failing_test(folder, layer, files, change):
 def run_scene(folder, out, scene, change):
     name, duration, options = scene
     shutil.rmtree(out, ignore_errors=True)
-    command = [folder / 'build' / 'percale', 'run', folder / 'copy' / 'data' / 'scenes' / f'{name}.toml', '-o', out, '--threads', '1', '--quiet',
-               '--frames', 'none', '--replay-hash', '--set', f'duration={duration}']
-    for option in options:
-        command += ['--set', option]
-    code, _ = ended(command, change)
+    file = folder / 'copy' / 'data' / 'scenes' / f'{name}.toml'
+    code, _ = ended(run_command(folder / 'build' / 'percale', file, [f'duration={duration}', *options], ['--threads', '1'], out), change)
     steps = out / 'steps.csv'
     text = steps.read_bytes() if steps.exists() else b''
-    newton = linear = 0
-    for row in csv.DictReader(text.decode().splitlines()):
-        newton, linear = newton + int(row['newton']), linear + int(row['linear'])
-    return code, text, newton, linear
+    return code, text, *iterations_of(csv.DictReader(text.decode().splitlines()))
 
 
 def judge_scenes(folder, out, change, as_built):
@@ -290,7 +286,12 @@ def main():
     folder = arguments.folder
     folder.mkdir(parents=True, exist_ok=True)
     known = folder / 'constants.json'
+    head = subprocess.run(['git', '-C', ROOT, 'rev-parse', 'HEAD'], check=True, capture_output=True, text=True).stdout.strip()
+    commit = folder / 'commit'
     if not arguments.built:
+        if (folder / 'results.json').exists() and commit.exists() and commit.read_text() != head:
+            parser.error(f'{folder} holds results of {commit.read_text()[:8]}; HEAD is {head[:8]}: take another folder, or --built')
+        commit.write_text(head)
         made = prepare(folder)
         known.write_text(json.dumps([vars(constant) for constant in made]))
         build(folder)

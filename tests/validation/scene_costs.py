@@ -17,7 +17,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
-from state_hashes import SCENES, hashes_of, run_command
+from state_hashes import SCENES, hashes_of, iterations_of, run_command
 
 SHORT = 0.2  # s, the ratio of CPU times is noise in scenes that take less with BEFORE
 HEAD = ('| scene | CPU s before | after | ratio | Newton before | after | ratio | linear ratio | same bits? | else |\n' + '|---' * 10 + '|')
@@ -53,8 +53,9 @@ def measure(program, scene, settings):
         rows = list(csv.DictReader(steps.read_text().splitlines())) if steps.exists() else []
         if not rows:
             return Cost(failure=f'exit code {process.returncode}: {last_line(error)}')
-        return Cost(cpu=usage.ru_utime, newton=sum(int(row['newton']) for row in rows), linear=sum(int(row['linear']) for row in rows),
-                    end=float(rows[-1]['time']), code=process.returncode, hashes=hashes_of(Path(folder))[-1])
+        newton, linear = iterations_of(rows)
+        return Cost(cpu=usage.ru_utime, newton=newton, linear=linear, end=float(rows[-1]['time']), code=process.returncode,
+                    hashes=hashes_of(Path(folder))[-1])
 
 
 def least(costs):

@@ -65,6 +65,12 @@ def hashes_of(folder):
     return len(rows), rows[-1]['status'], rows[-1]['state_hash'], rows[-1]['contact_hash'], digest
 
 
+def iterations_of(rows):
+    """Newton and linear iterations of the rows of a steps.csv."""
+    rows = list(rows)
+    return sum(int(row['newton']) for row in rows), sum(int(row['linear']) for row in rows)
+
+
 def run_command(program, scene, settings, flags, folder):
     command = [program, 'run', str(scene), '--replay-hash', '--frames', 'none', '--quiet', '-o', str(folder), *flags]
     for setting in settings:

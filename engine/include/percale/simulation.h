@@ -122,7 +122,7 @@ public:
     /// StepSettings::work_limit, 0 (none) ... 50000. Steps of a scene at 1/60 s take about 1 to 10 Newton iterations.
     void set_work_limit(int iterations);
     /// Wall time of a step, s, 1e-6 ... 1e6, or 0 (none, as before the first call): for hosts that have to go on. An implicit
-    /// step that has used it up is accepted as it is after the present Newton iteration, each piece of it after at least one:
+    /// step that has used it up is accepted as it is after the present Newton iteration, each piece of it after at least two:
     /// StepReport has out_of_time, and not_converged or, of an adaptive step, tolerance_missed. Nothing crosses, pins and
     /// obstacles are at their targets, but forces are not balanced. Where pins and obstacles have not arrived after about 20 more
     /// iterations, as after a jump, the step fails (work_limit, out_of_time) and nothing moves: use `teleport` for jumps. The

@@ -15,7 +15,6 @@ struct ContactScene {
     std::function<Simulation(int n, const StepSettings& settings, int start)> make;
     /// Called before each step with the time at which that ends, s, where something is moved.
     std::function<void(Simulation&, double end)> drive = {};
-    double seconds = 1.0;
 };
 
 /// All of them; `scan` only where that body scan is installed.
