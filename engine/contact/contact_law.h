@@ -14,11 +14,11 @@ namespace percale {
 
 /// What a contact law needs to know of the stage in which it is evaluated.
 struct ContactStep {
-    double dt = 0.0;                            // s, h sqrt(contact_weight) of the stage: contact then has backward Euler's form
-    double obstacle_rate = 0.0;                 // 1/s, obstacle velocity / obstacle_displacement
-    double fraction = 0.0;                      // of the whole step, where the obstacles are
-    const std::vector<double>* mass = nullptr;  // kg, of each vertex
-    double gravity = 0.0;                       // m/s^2
+    double dt = 0.0;                               // s, h sqrt(weight of contact in the stage): the form of backward Euler
+    double obstacle_rate = 0.0;                    // 1/s, obstacle velocity / obstacle_displacement
+    double fraction = 0.0;                         // of the whole step, where the obstacles are
+    const std::vector<double>* mass = nullptr;     // kg, of each vertex
+    double gravity = 0.0;                          // m/s^2
     const std::vector<double>* modulus = nullptr;  // N/m, of each vertex, for penalty
     const std::vector<double>* length = nullptr;   // m, likewise (ContactScale)
     const DiagonalBlocks* diagonal = nullptr;      // of the elastic step matrix at the stage's first evaluation; frozen

@@ -27,7 +27,7 @@ double shorten(const LineTrial& trial);
 
 /// A search along a direction.
 struct LineTask {
-    const TimeError& error;
+    const TimeError& error;       // with which the change by the direction is compared
     const Vec3Arrays& direction;  // m/s
     BodyStates& bodies;           // marked: whether the direction changes them by little
 };

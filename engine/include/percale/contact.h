@@ -31,7 +31,7 @@ struct ContactConstraints {
     std::vector<Vec3> obstacle_point;           // m, world, at the given fraction of the step
     std::vector<Vec3> obstacle_displacement;    // m, of that point during the whole step
     std::vector<double> distance;               // m, from the cloth's middle surface to the obstacle or to the other's, > 0
-    std::vector<double> thickness;              // m, activation distance
+    std::vector<double> thickness;              // m, at which the force begins
     std::vector<double> friction;               // Coulomb coefficient
     std::vector<double> mollifier;  // factor of the forces: less than 1 where other constraints hold the contact, too; with
                                     // projection such a constraint is a spring. Below 0: the constraint is subtracted

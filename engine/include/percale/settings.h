@@ -33,10 +33,13 @@ struct StepSettings {
     bool adaptive = false;
     double tolerance = 1e-3;  // m of position error for each second of simulation; used if adaptive
     Scheme scheme = Scheme::backward_euler;
-    /// Residual relative to the first of the step; empty = solver error below newton_error_ratio of the step's time error.
+    /// At which Newton's method ends: the residual relative to the first of the stage, or to the momentum that gravity gives in
+    /// it where that is larger. Empty: by newton_error_ratio.
     std::optional<double> newton_tolerance = {};
-    double newton_error_ratio = 1.0;  // 0.001 ... 100
-    int newton_iterations = 50;       // at most; 1 = linearly implicit
+    /// The largest last change, over the time error of the stage, at which Newton's method ends; 0.001 ... 100. In adaptive steps
+    /// 0.25 at most. Smaller: steps are nearer to exact ones, and cost more.
+    double newton_error_ratio = 1.0;
+    int newton_iterations = 50;  // at most; 1 = linearly implicit
     /// Newton iterations of one step, over all its substeps, repeated ones included; 0: no limit. Beyond them the step fails
     /// (StepStatus::work_limit), within a few more iterations.
     int work_limit = 10000;
