@@ -7,10 +7,8 @@
 
 #include "geometry/clamp_floor.h"
 #include "lists/candidate_state.h"
-#include "lists/feature_minima.h"
-#include "lists/list_passes.h"
+#include "lists/constraint_search.h"
 #include "lists/list_removal.h"
-#include "lists/pack_measure.h"
 #include "self/self_contact_detection.h"
 #include "tolerances.h"
 #include "untangle/untangle.h"
@@ -139,6 +137,8 @@ public:
     }
 
 private:
+    ListedScene listed() const { return {thickness_, obstacles_}; }
+
     std::uint64_t own_hash() const {
         if (!scene_hash_) scene_hash_ = scene_hash(triangles_, thickness_, obstacles_);
         return *scene_hash_;
@@ -164,121 +164,14 @@ private:
         if (searches_.size() < parts) searches_.resize(parts);
         parallel_for_chunks(workers_, near.size(), grain, [&](std::size_t first, std::size_t last, int) {
             ConstraintSearch& own = searches_[first / grain];
-            own.run(*this, near.subspan(first, last - first), positions, fraction, parts == 1 ? constraints : own.constraints);
+            own.run(listed(), near.subspan(first, last - first), {positions, fraction},
+                    parts == 1 ? constraints : own.constraints);
         });
         for (const ConstraintSearch& own : std::span(searches_).first(parts)) {
             smallest_distance_ = std::min(smallest_distance_, own.smallest_distance);
             if (parts > 1) constraints.append(own.constraints);
         }
     }
-
-    /// The places where one of a list's bounds is at most `limit`. Valid until `found` is used again.
-    static std::span<const int> packs_up_to(const std::vector<float>& bounds, double limit, std::vector<int>& found) {
-        if (found.size() < bounds.size()) found.resize(bounds.size());
-        const long count = pack_kernels().find_up_to(bounds.data(), static_cast<long>(bounds.size()), above(limit), found.data());
-        return std::span<const int>(found).first(static_cast<std::size_t>(count));
-    }
-
-    /// Finds the constraints of some clusters. Each pass prefetches for the next places, as the data exceed the nearest caches.
-    class ConstraintSearch {
-    public:
-        ContactConstraints constraints;  // where they do not go to the caller's at once
-        double smallest_distance = std::numeric_limits<double>::infinity();
-
-        void run(const MeshDetector& detector, std::span<ClusterList* const> clusters, std::span<const Vec3> positions,
-                 double fraction, ContactConstraints& to) {
-            constraints.clear();
-            smallest_distance = std::numeric_limits<double>::infinity();
-            find_candidates(clusters);
-            select_packs(detector, positions);
-            measure_selected(detector, {positions, positions, {fraction, fraction}});
-            minima_.begin(to);
-            for (std::size_t i = 0; i < lanes_.size(); ++i) {
-                fetch_ahead(detector, i);
-                if (i > 0 && &lanes_[i].place.feature() != &lanes_[i - 1].place.feature()) minima_.next_feature(to);
-                smallest_distance = std::min(smallest_distance, detector.add_lane(positions, fraction, lanes_[i], minima_, to));
-            }
-            minima_.next_feature(to);
-            for (ClusterList* list : clusters) CandidateLists::set_smallest_bounds(*list);
-        }
-
-    private:
-        /// The packs whose bounds are used up.
-        void find_candidates(std::span<ClusterList* const> clusters) {
-            candidates_.clear();
-            for (std::size_t i = 0; i < clusters.size(); ++i) {
-                if (i + 2 < clusters.size()) {
-                    const std::vector<float>& wake = clusters[i + 2]->packs.wake;
-                    fetch(wake.data(), wake.size());
-                }
-                ClusterList& list = *clusters[i];
-                for (const int pack : packs_up_to(list.packs.wake, list.travel, found_)) candidates_.push_back({&list, pack});
-            }
-        }
-
-        /// Selects those of them that have to be measured: the hulls of most are far away.
-        void select_packs(const MeshDetector& detector, std::span<const Vec3> positions) {
-            selected_.clear();
-            const ContactPair* last = nullptr;
-            Box box;  // of the last cloth feature
-            for (std::size_t i = 0; i < candidates_.size(); ++i) {
-                if (i + 16 < candidates_.size())
-                    __builtin_prefetch(&candidates_[i + 16].list->packs.at[candidates_[i + 16].index]);
-                if (i + 8 < candidates_.size()) detector.fetch_hull(candidates_[i + 8]);
-                const auto& [list, pack] = candidates_[i];
-                const ContactPair& feature = candidates_[i].feature();
-                const double thickness = detector.thickness_[feature.cloth[0]];
-                const PackHull& hull = detector.hull_of(candidates_[i]);
-                double apart = height_above(hull, feature.vertices(), positions);
-                if (apart < thickness) {
-                    if (last != &feature) box = box_of(feature, positions);
-                    last = &feature;
-                    apart = std::max(apart, hull.box().gap(box));
-                }
-                if (apart < thickness) {
-                    selected_.push_back(candidates_[i]);
-                } else {
-                    list->packs.raise(pack, apart, apart - thickness, thickness, list->travel);
-                }
-            }
-        }
-
-        /// Finds the lanes that can be contacts.
-        void measure_selected(const MeshDetector& detector, const ClothMove& here) {
-            lanes_.clear();
-            for (std::size_t i = 0; i < selected_.size(); ++i) {
-                if (i + 4 < selected_.size()) {
-                    const SelectedPack& next = selected_[i + 4];
-                    detector.packs_for(next.feature()).placed[next.number()].prefetch(next.feature().kind);
-                }
-                const SelectedPack& at = selected_[i];
-                const PackAnswer answer = detector.measure_pack(here, at, detector.thickness_[at.feature().cloth[0]]);
-                for (unsigned lanes = answer.contact | (at.list->packs.at[at.index].persistent & answer.near); lanes != 0;
-                     lanes &= lanes - 1) {
-                    lanes_.push_back({at, std::countr_zero(lanes)});
-                    __builtin_prefetch(&detector.packs_for(at.feature()).packs[at.number()].feature);
-                }
-            }
-        }
-
-        void fetch_ahead(const MeshDetector& detector, std::size_t lane) const {
-            for (int depth = 0; depth < pair_fetches; ++depth) {
-                const std::size_t ahead = lane + 4 * static_cast<std::size_t>(pair_fetches - depth);
-                if (ahead >= lanes_.size()) continue;
-                const ContactPair pair = detector.pair_of(lanes_[ahead]);
-                fetch_pair(pair, *detector.obstacles_[pair.obstacle], depth);
-            }
-        }
-
-        FeatureMinima minima_;
-        std::vector<int> found_;
-        std::vector<SelectedPack> candidates_, selected_;
-        std::vector<SelectedLane> lanes_;
-    };
-
-    const ObstaclePacks& packs_for(const ContactPair& feature) const { return obstacles_[feature.obstacle]->packs(); }
-    void fetch_hull(const SelectedPack& at) const { __builtin_prefetch(&packs_for(at.feature()).hulls[at.number()]); }
-    const PackHull& hull_of(const SelectedPack& at) const { return obstacles_[at.feature().obstacle]->hull(at.number()); }
 
     /// Lowers `safe` to the collision-free step size of all clusters.
     double clamp(const ClothMove& move, double safe) {
@@ -307,55 +200,6 @@ private:
             if (moved_[i]) forgotten_at_[i] = positions[i];
         }
         lists_->forget_persistent(moved_);
-    }
-
-    PackAnswer measure_pack(const ClothMove& move, const SelectedPack& at, double near) const {
-        const ContactPair& feature = at.feature();
-        const double thickness = thickness_[feature.cloth[0]];
-        const PlacedPack& placed = obstacles_[feature.obstacle]->placed(at.number(), move.fraction.from);
-        const PackAnswer answer = measure(feature, move.from, placed, {.near = near, .thickness = thickness});
-        at.list->packs.raise(at.index, static_cast<double>(answer.distance_bound), static_cast<double>(answer.travel_to_contact),
-                             thickness, at.list->travel);
-        return answer;
-    }
-
-    ContactPair pair_of(const SelectedLane& at) const {
-        const ContactPair& feature = at.place.feature();
-        return feature.with(packs_for(feature).packs[at.place.number()], at.lane);
-    }
-
-    /// Returns the distance of the pair.
-    double add_lane(std::span<const Vec3> positions, double fraction, const SelectedLane& at, FeatureMinima& minima,
-                    ContactConstraints& constraints) const {
-        const ContactPair pair = pair_of(at);
-        const double thickness = thickness_[pair.cloth[0]];
-        const PairContact contact = pair_contact(pair, positions, *obstacles_[pair.obstacle], fraction);
-        if (contact.distance >= thickness || edge_mollifier(contact, thickness) == 0.0) return contact.distance;
-        // A pair that was a contact stays one until the next update of the candidates: constraints are only added while a step is
-        // being solved, so that the force is continuous where closest points pass from one feature to the next.
-        const auto& [list, pack] = at.place;
-        if (contact.local_minimum) {
-            list->packs.make_persistent(pack, at.lane, thickness);
-            list->has_persistent = true;
-        }
-        if ((list->packs.at[pack].persistent >> at.lane & 1U) == 0) return contact.distance;
-        add_constraint(pair, contact, thickness, constraints);
-        minima.add(contact.local_minimum);
-        return contact.distance;
-    }
-
-    void add_constraint(const ContactPair& pair, const PairContact& contact, double thickness, ContactConstraints& to) const {
-        to.vertex.push_back({pair.cloth[0], pair.cloth[1], pair.cloth[2], -1});
-        to.weight.push_back(contact.weight);
-        to.direction.push_back(contact.direction);
-        to.obstacle_point.push_back(contact.obstacle_point);
-        to.obstacle_displacement.push_back(contact.obstacle_displacement);
-        to.distance.push_back(contact.distance);
-        to.thickness.push_back(thickness);
-        to.friction.push_back(obstacles_[pair.obstacle]->friction());
-        to.mollifier.push_back(edge_mollifier(contact, thickness));
-        to.obstacle.push_back(pair.obstacle);
-        to.feature.push_back(pair.feature);
     }
 
     /// How a cloth feature moves.
@@ -402,7 +246,7 @@ private:
             }
             const double near = distance_that_keeps_floor(own.approach * safe, own.thickness);
             if (static_cast<double>(list.packs.reach[pack]) - list.travel >= near) continue;
-            const PackHull& hull = hull_of(at);
+            const PackHull& hull = listed().hull_of(at);
             const bool may_cross =
                 !stays_above(hull, feature, move, tolerances::clamp_floor * own.thickness) && hull.box().overlaps(own.room);
             if (may_cross) safe = clamp_to_pack(move, near, at, safe);
@@ -411,7 +255,7 @@ private:
     }
 
     double clamp_to_pack(const ClothMove& move, double near, const SelectedPack& at, double safe) const {
-        const PackAnswer answer = measure_pack(move, at, near);
+        const PackAnswer answer = listed().measure_pack(move, at, near);
         const Obstacle& obstacle = *obstacles_[at.feature().obstacle];
         for (unsigned lanes = answer.near; lanes != 0; lanes &= lanes - 1) {
             const ContactPair pair = at.feature().with(obstacle.packs().packs[at.number()], std::countr_zero(lanes));

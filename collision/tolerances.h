@@ -75,10 +75,6 @@ constexpr double flat_triangle = 1e-9;
 
 // ---- bullet/
 
-/// Fraction of the thickness. Obstacle points nearer to each other are one place. Smaller: rounding keeps two constraints at one
-/// place apart. Larger: there is nothing to gain, because rounding is far below.
-constexpr double same_place = 1e-6;
-
 /// Clusters in a chunk of the search for contacts (cost alone), and in a chunk of a clamp, within which the limit of one cluster
 /// narrows the search of the next. More: threads wait for the last chunk. Fewer: clamps measure pairs that an earlier cluster
 /// would have excluded.

@@ -48,29 +48,6 @@ void set_direction(PairContact& contact) {
     if (contact.distance > 0.0) contact.direction = apart / contact.distance;
 }
 
-/// Whether this obstacle triangle reports a closest point in `region` of it.
-bool triangle_reports(const ObstacleSurface& surface, int triangle, const PointTriangle& closest, const PairContact& contact,
-                      const auto& at) {
-    if (closest.region == TriangleRegion::face) return true;
-    if (closest.region == TriangleRegion::vertex) {
-        const int vertex = surface.triangles[triangle][closest.corner];
-        return surface.vertex_owner[vertex] == triangle && vertex_faces(surface, vertex, contact.direction, at);
-    }
-    const int edge = surface.triangle_edges[triangle][closest.corner];
-    return surface.edges[edge].owner == triangle && edge_faces(surface, edge, contact.obstacle_point, contact.direction, at);
-}
-
-PairContact vertex_face_contact(const ContactPair& pair, std::span<const Vec3> cloth, const Obstacle& obstacle, double fraction) {
-    const PointTriangle closest = vertex_on_face(pair, cloth, obstacle, fraction);
-    PairContact contact{.weight = {1.0, 0.0, 0.0, 0.0}, .cloth_point = cloth[pair.cloth[0]], .obstacle_point = closest.point};
-    set_direction(contact);
-    const Triangle& t = obstacle.surface().triangles[pair.feature];
-    for (int k = 0; k < 3; ++k) contact.obstacle_displacement += closest.weight[k] * obstacle.displacement(t[k]);
-    const auto at = [&](int vertex) { return obstacle.at(vertex, fraction); };
-    contact.local_minimum = triangle_reports(obstacle.surface(), pair.feature, closest, contact, at);
-    return contact;
-}
-
 PairContact edge_edge_contact(const ContactPair& pair, std::span<const Vec3> cloth, const Obstacle& obstacle, double fraction) {
     const EdgeEdge closest = edges(pair, cloth, obstacle, fraction);
     const auto [a, b] = ends(obstacle, pair.feature, fraction);
@@ -145,14 +122,8 @@ double pair_distance(const ContactPair& pair, std::span<const Vec3> cloth, const
 }
 
 PairContact pair_contact(const ContactPair& pair, std::span<const Vec3> cloth, const Obstacle& obstacle, double fraction) {
-    switch (pair.kind) {
-        case PairKind::vertex_face:
-            return vertex_face_contact(pair, cloth, obstacle, fraction);
-        case PairKind::edge_edge:
-            return edge_edge_contact(pair, cloth, obstacle, fraction);
-        default:
-            return face_vertex_contact(pair, cloth, obstacle, fraction);
-    }
+    return pair.kind == PairKind::edge_edge ? edge_edge_contact(pair, cloth, obstacle, fraction)
+                                            : face_vertex_contact(pair, cloth, obstacle, fraction);
 }
 
 void fetch_pair(const ContactPair& pair, const Obstacle& obstacle, int depth) {

@@ -29,7 +29,7 @@ struct ContactPair {
     }
 };
 
-/// The exact closest points of a pair.
+/// The exact closest points of a cloth feature and an obstacle feature.
 struct PairContact {
     double distance = 0.0;           // m
     std::array<double, 4> weight{};  // of the cloth vertices
@@ -54,10 +54,10 @@ Vec3 pair_apart(const ContactPair& pair, std::span<const Vec3> cloth, const Obst
 /// a strip over a cylinder of 64 facets whose cross threads are parallel to the edges: 330 iterations a step, with it 8.
 double edge_mollifier(const PairContact& contact, double thickness);
 
-/// Everything about the closest points. A contact belongs to exactly one pair: closest points inside a face or inside two edges
-/// belong to that pair, those on an edge or vertex of the obstacle to the feature's owner and only if the feature faces the
-/// cloth, those on a cloth edge to the triangle that owns it, unless the one across comes nearer: then its inside or another edge
-/// of it is the contact.
+/// Everything about the closest points of two edges, or of a face of cloth and an obstacle vertex. A contact belongs to exactly
+/// one pair: closest points inside the face or inside both edges belong to that pair if the obstacle's feature faces the cloth,
+/// those on a cloth edge to the triangle that owns it, unless the one across comes nearer: then its inside or another edge of it
+/// is the contact. Vertices of cloth: obstacle_terms.h.
 PairContact pair_contact(const ContactPair& pair, std::span<const Vec3> cloth, const Obstacle& obstacle, double fraction);
 
 /// Prefetches what pair_contact reads of the obstacle. Each depth reads what the one before has prefetched.

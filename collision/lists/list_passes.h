@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "lists/candidate_lists.h"
+#include "lists/pack_measure.h"
 
 namespace percale {
 
@@ -18,6 +19,38 @@ struct SelectedLane {
     SelectedPack place;
     int lane;
 };
+
+/// What the passes over listed packs read.
+struct ListedScene {
+    std::span<const double> thickness;  // m, of each vertex of the cloth
+    const Obstacles& obstacles;
+
+    double thickness_of(const ContactPair& feature) const { return thickness[feature.cloth[0]]; }
+    const ObstaclePacks& packs_for(const ContactPair& feature) const { return obstacles[feature.obstacle]->packs(); }
+    const PackHull& hull_of(const SelectedPack& at) const { return obstacles[at.feature().obstacle]->hull(at.number()); }
+    void fetch_hull(const SelectedPack& at) const { __builtin_prefetch(&packs_for(at.feature()).hulls[at.number()]); }
+    ContactPair pair_of(const SelectedLane& at) const {
+        const ContactPair& feature = at.place.feature();
+        return feature.with(packs_for(feature).packs[at.place.number()], at.lane);
+    }
+    /// Measures the pairs of a pack, `near`: where they matter, m; raises the bounds of its list.
+    PackAnswer measure_pack(const ClothMove& move, const SelectedPack& at, double near) const {
+        const ContactPair& feature = at.feature();
+        const double own = thickness_of(feature);
+        const PlacedPack& placed = obstacles[feature.obstacle]->placed(at.number(), move.fraction.from);
+        const PackAnswer answer = measure(feature, move.from, placed, {.near = near, .thickness = own});
+        at.list->packs.raise(at.index, static_cast<double>(answer.distance_bound), static_cast<double>(answer.travel_to_contact),
+                             own, at.list->travel);
+        return answer;
+    }
+};
+
+/// The places where one of a list's bounds is at most `limit`. Valid until `found` is used again.
+inline std::span<const int> packs_up_to(const std::vector<float>& bounds, double limit, std::vector<int>& found) {
+    if (found.size() < bounds.size()) found.resize(bounds.size());
+    const long count = pack_kernels().find_up_to(bounds.data(), static_cast<long>(bounds.size()), above(limit), found.data());
+    return std::span<const int>(found).first(static_cast<std::size_t>(count));
+}
 
 inline Box box_of(const ContactPair& feature, std::span<const Vec3> positions) {
     Box box;

@@ -155,15 +155,19 @@ void connect_edges(ObstacleSurface& surface) {
 
 void connect_vertices(ObstacleSurface& surface) {
     const std::size_t count = surface.vertices.size();
-    std::vector<std::vector<int>> rings(count);
-    for (const SurfaceEdge& edge : surface.edges) {
-        rings[edge.vertex[0]].push_back(edge.vertex[1]);
-        rings[edge.vertex[1]].push_back(edge.vertex[0]);
+    std::vector<std::vector<int>> edges_at(count);
+    for (std::size_t e = 0; e < surface.edges.size(); ++e) {
+        for (const int vertex : surface.edges[e].vertex) edges_at[vertex].push_back(static_cast<int>(e));
     }
     surface.ring.clear();
+    surface.ring_edges.clear();
     surface.ring_start.assign(1, 0);
-    for (const std::vector<int>& ring : rings) {
-        surface.ring.insert(surface.ring.end(), ring.begin(), ring.end());
+    for (std::size_t v = 0; v < count; ++v) {
+        for (const int e : edges_at[v]) {
+            const auto& [a, b] = surface.edges[e].vertex;
+            surface.ring.push_back(a == static_cast<int>(v) ? b : a);
+            surface.ring_edges.push_back(e);
+        }
         surface.ring_start.push_back(static_cast<int>(surface.ring.size()));
     }
     surface.vertex_owner.assign(count, -1);

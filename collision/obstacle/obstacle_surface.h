@@ -30,12 +30,16 @@ struct ObstacleSurface {
     std::vector<int> vertex_owner;                   // the first triangle of each vertex
     std::vector<bool> vertex_can_touch;              // some edge at it can touch
     std::vector<int> ring_start, ring;          // neighbours of vertex v: ring[ring_start[v]] ... ring[ring_start[v + 1] - 1]
+    std::vector<int> ring_edges;                // the edges to them
     std::vector<int> opposite_start, opposite;  // vertices opposite edge e in its triangles, likewise
     bool watertight = false;                    // every edge in two triangles that agree on its direction, internal ones counted
     CleaningReport cleaning;
 
     std::span<const int> neighbours(int v) const {
         return std::span(ring).subspan(ring_start[v], ring_start[v + 1] - ring_start[v]);
+    }
+    std::span<const int> edges_at(int v) const {
+        return std::span(ring_edges).subspan(ring_start[v], ring_start[v + 1] - ring_start[v]);
     }
     std::span<const int> opposites(int e) const {
         return std::span(opposite).subspan(opposite_start[e], opposite_start[e + 1] - opposite_start[e]);

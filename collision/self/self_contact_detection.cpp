@@ -110,13 +110,15 @@ double SelfContactDetection::measure(SelfList& list, SelfPair& pair, std::span<c
 
 double SelfContactDetection::measure_vertex(SelfList& list, SelfPair& pair, std::span<const Vec3> positions,
                                             ContactConstraints& constraints) const {
-    const VertexTerms terms = vertex_terms(pair, positions, lists_.cloth());
+    const SurfaceTerms terms = vertex_terms(pair, positions, lists_.cloth());
     pair.reach = terms.distance + list.travel;
     double smallest = infinity;
-    for (const VertexTerm& term : std::span(terms.terms).first(terms.count)) {
-        const double activation_distance = activation_distance_at(pair, list.seam_activation_distance(pair), term.weight);
+    for (const SurfaceTerm& term : std::span(terms.terms).first(terms.count)) {
+        const std::array<double, 4> weight{1.0, -term.weight[0], -term.weight[1], -term.weight[2]};
+        const double activation_distance = activation_distance_at(pair, list.seam_activation_distance(pair), weight);
         if (term.distance >= activation_distance) continue;
-        add_constraint(pair, activation_distance, term, constraints);
+        const Vec3 direction = term.distance > 0.0 ? Vec3(term.apart / term.distance) : Vec3(Vec3::Zero());
+        add_constraint(pair, activation_distance, {term.distance, weight, direction, term.factor}, constraints);
         smallest = std::min(smallest, term.distance);
     }
     return smallest;
@@ -154,24 +156,24 @@ double SelfContactDetection::measure_edges(SelfList& list, SelfPair& pair, std::
 }
 
 /// Vertices without weight are left out.
-void SelfContactDetection::add_constraint(const SelfPair& pair, double activation_distance, const VertexTerm& term,
+void SelfContactDetection::add_constraint(const SelfPair& pair, double activation_distance, const Contact& contact,
                                           ContactConstraints& constraints) const {
     std::array<int, 4> vertex{-1, -1, -1, -1};
     std::array<double, 4> weight{};
     for (int k = 0, count = 0; k < 4; ++k) {
-        if (term.weight[k] == 0.0) continue;
+        if (contact.weight[k] == 0.0) continue;
         vertex[count] = pair.vertex[k];
-        weight[count++] = term.weight[k];
+        weight[count++] = contact.weight[k];
     }
     constraints.vertex.push_back(vertex);
     constraints.weight.push_back(weight);
-    constraints.direction.push_back(term.direction);
+    constraints.direction.push_back(contact.direction);
     constraints.obstacle_point.push_back(Vec3::Zero());
     constraints.obstacle_displacement.push_back(Vec3::Zero());
-    constraints.distance.push_back(term.distance);
+    constraints.distance.push_back(contact.distance);
     constraints.thickness.push_back(activation_distance);
     constraints.friction.push_back(0.5 * (friction_[pair.vertex[0]] + friction_[pair.vertex[3]]));
-    constraints.mollifier.push_back(term.factor);
+    constraints.mollifier.push_back(contact.factor);
     constraints.obstacle.push_back(-1);
     constraints.feature.push_back(pair.shape == PairShape::edge_edge ? 2 : 1);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <utility>
 #include <vector>
@@ -49,7 +50,14 @@ private:
     double measure_edges(SelfList& list, SelfPair& pair, std::span<const Vec3> positions, ContactConstraints& constraints) const;
     double activation_distance(const SelfList& list, const SelfPair& pair, const EdgeContact& contact) const;
     void settle(const SelfList& list, SelfPairRecord& record, std::span<const Vec3> positions) const;
-    void add_constraint(const SelfPair& pair, double activation_distance, const VertexTerm& term,
+    /// One contact of a pair: distance, weights of the pair's vertices, direction and the factor of its forces.
+    struct Contact {
+        double distance;
+        std::array<double, 4> weight;
+        Vec3 direction;
+        int factor;
+    };
+    void add_constraint(const SelfPair& pair, double activation_distance, const Contact& contact,
                         ContactConstraints& constraints) const;
 
     SelfContactLists lists_;

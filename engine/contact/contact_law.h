@@ -26,7 +26,7 @@ struct ContactStep {
     const FrictionContacts* previous = nullptr;    // of the last accepted Newton iterate; null at the first evaluation
 };
 
-/// The stiffness of a vertex' constraints with cloth on its two sides, N/m: of those that have blocks, and of those subtracted.
+/// The stiffness of a vertex' constraints with faces on its two sides, N/m: of those that have blocks, and of those subtracted.
 struct VertexStiffness {
     Vec3 first_side = Vec3::Zero();  // direction of the first constraint; zero: there is none
     std::array<double, 2> added{}, subtracted{};

@@ -37,6 +37,7 @@ public:
     /// Each key may be added once.
     void add(const ConstraintKey& key, const ConstraintForce& force) { forces_.at(key) = force; }
     ConstraintForce of(const ConstraintKey& key) const;
+    bool knows(const ConstraintKey& key) const { return forces_.find(key) != nullptr; }
     std::size_t size() const { return forces_.entries().size(); }
 
     /// Where facets pass under a feature of the cloth, a force moves on with it: from a constraint that is gone, or off and

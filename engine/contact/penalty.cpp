@@ -48,25 +48,34 @@ ContactStiffness constraint_stiffness(const ContactConstraints& constraints, std
     return {mollifier * stiffness.quadratic, mollifier * stiffness.quartic};
 }
 
-/// Adds the normal force of a constraint with an obstacle to the friction contacts of its vertices. Opposed normals, from the two
-/// sides of a gap, both add to the limit.
+/// Adds the normal force of a constraint with an obstacle to the friction contacts of its vertices; below 0 that of one that is
+/// subtracted, after all others. Opposed normals, from the two sides of a gap, both add to the limit.
 void add_normal_force(const ContactConstraints& constraints, std::size_t constraint, double normal_force, const ContactStep& step,
                       FrictionContacts& friction_contacts) {
     const std::span<const ObstacleMotion> obstacle_motions = step.friction->obstacle_motions;
     const bool deforms = constraints.obstacle[constraint] < static_cast<int>(obstacle_motions.size()) &&
                          obstacle_motions[constraints.obstacle[constraint]].deforms;
-    const Vec3 friction_limit = constraints.friction[constraint] * normal_force * constraints.direction[constraint];
+    const Vec3& n = constraints.direction[constraint];
+    const Vec3 friction_limit = constraints.friction[constraint] * normal_force * n;
     for (int k = 0; k < 4 && constraints.vertex[constraint][k] >= 0; ++k) {
         if (constraints.weight[constraint][k] <= 0.0) continue;
         FrictionContact& friction_contact =
             friction_contacts.get(constraints.vertex[constraint][k], constraints.obstacle[constraint]);
-        friction_contact.friction_limit += (friction_contact.friction_limit.dot(friction_limit) < 0.0 ? -1.0 : 1.0) *
-                                           constraints.weight[constraint][k] * friction_limit;
+        friction_contact.friction_limit +=
+            (friction_contact.friction_limit.dot(n) < 0.0 ? -1.0 : 1.0) * constraints.weight[constraint][k] * friction_limit;
         friction_contact.stick_threshold = stick_threshold_ratio * constraints.thickness[constraint];
         if (!deforms) continue;
         friction_contact.load += constraints.weight[constraint][k] * normal_force;
         friction_contact.carried +=
             constraints.weight[constraint][k] * normal_force * constraints.obstacle_displacement[constraint];
+    }
+}
+
+void subtract_normal_forces(const ContactConstraints& constraints, const std::vector<ConstraintForce>& forces,
+                            const ContactStep& step, FrictionContacts& friction_contacts) {
+    for (std::size_t constraint = 0; constraint < constraints.size(); ++constraint) {
+        if (constraints.obstacle[constraint] >= 0 && constraints.friction[constraint] * forces[constraint].normal < 0.0)
+            add_normal_force(constraints, constraint, forces[constraint].normal, step, friction_contacts);
     }
 }
 
@@ -120,9 +129,9 @@ Vec3 friction_between_cloths(const ContactConstraints& constraints, const ClothF
     return cloth_contact.law.force(cloth_contact.slip);
 }
 
-/// Whether a constraint is of a vertex with cloth.
-bool of_vertex_with_cloth(const ContactConstraints& constraints, std::size_t constraint) {
-    return constraints.obstacle[constraint] < 0 && is_of_vertex(constraints.weight[constraint]);
+/// Whether a constraint is of a vertex with faces of an obstacle or of cloth.
+bool of_vertex(const ContactConstraints& constraints, std::size_t constraint) {
+    return constraints.vertex[constraint][1] < 0 || is_of_vertex(constraints.weight[constraint]);
 }
 
 /// On which side of the vertex the constraint holds cloth.
@@ -136,14 +145,14 @@ void reduce_blocks(const ContactConstraints& constraints, const std::vector<Cons
     std::vector<VertexStiffness>& stiffness = terms.vertex_stiffness;
     stiffness.assign(vertices, {});
     for (std::size_t constraint = 0; constraint < constraints.size(); ++constraint) {
-        if (!of_vertex_with_cloth(constraints, constraint)) continue;
+        if (!of_vertex(constraints, constraint)) continue;
         VertexStiffness& of = stiffness[constraints.vertex[constraint][0]];
         if (of.first_side.isZero(0.0)) of.first_side = constraints.direction[constraint];
         const int side = side_of(of, constraints.direction[constraint]);
         (constraints.mollifier[constraint] > 0.0 ? of.added : of.subtracted)[side] += std::abs(forces[constraint].stiffness);
     }
     for (CoupledBlock& block : terms.blocks) {
-        if (!of_vertex_with_cloth(constraints, block.constraint)) continue;
+        if (!of_vertex(constraints, block.constraint)) continue;
         const VertexStiffness& of = stiffness[block.vertex[0]];
         const int side = side_of(of, constraints.direction[block.constraint]);
         if (of.subtracted[side] == 0.0 || of.added[side] == 0.0) continue;
@@ -226,12 +235,16 @@ void add_contact(const ContactConstraints& constraints, const ContactStep& step,
         terms.energy += potential.energy;
         terms.largest_stiffness = std::max(terms.largest_stiffness, potential.curvature);
         terms.obstacle_power += force.dot(constraints.obstacle_displacement[constraint]) * step.obstacle_rate;
-        if (has_friction && on_obstacle)
+        if (has_friction && on_obstacle && potential.slope > 0.0)
             add_normal_force(constraints, constraint, potential.slope, step, terms.friction_contacts);
     }
-    if (subtracts) reduce_blocks(constraints, constraint_forces, static_cast<int>(step.mass->size()), terms);
-    for (FrictionContact& friction_contact : terms.friction_contacts.all)
-        add_friction(step, positions, friction_contact, forces, terms);
+    if (subtracts) {
+        if (step.friction) subtract_normal_forces(constraints, constraint_forces, step, terms.friction_contacts);
+        reduce_blocks(constraints, constraint_forces, static_cast<int>(step.mass->size()), terms);
+    }
+    for (FrictionContact& friction_contact : terms.friction_contacts.all) {
+        if (!friction_contact.friction_limit.isZero(0.0)) add_friction(step, positions, friction_contact, forces, terms);
+    }
 }
 
 void PenaltyContact::evaluate(const ContactPoint& point, ContactForces forces) const {

@@ -22,6 +22,10 @@ constexpr double multiplier_activation_ratio = 0.9;
 
 constexpr ConstraintClearance leaving{.activation_ratio = projection_activation_ratio, .ratio = contact_accuracy};
 
+/// No clearance is as large: only forces of constraints that are gone move on.
+constexpr ConstraintClearance gone{.activation_ratio = projection_activation_ratio,
+                                   .ratio = std::numeric_limits<double>::infinity()};
+
 /// One constraint at one point of the search.
 struct ConstraintState {
     Vec3 normal;
@@ -146,8 +150,19 @@ void ProjectedContact::begin(const ContactWarmStart& warm_start) {
     min_distance_ = warm_start.min_distance;
 }
 
+const ContactMultipliers& ProjectedContact::multipliers_at(const ContactConstraints& constraints) const {
+    std::size_t found = 0;
+    for (std::size_t constraint = 0; constraint < constraints.size(); ++constraint)
+        found += multipliers_.knows(constraint_key(constraints, constraint));
+    if (found == multipliers_.size()) return multipliers_;
+    moved_on_ = multipliers_;
+    moved_on_.transfer(constraints, gone);
+    return moved_on_;
+}
+
 void ProjectedContact::evaluate(const ContactPoint& point, ContactForces forces) const {
     const ContactConstraints& constraints = point.constraints;
+    const ContactMultipliers& multipliers = multipliers_at(constraints);
     ContactTerms& terms = forces.terms;
     terms.clear();
     forces.constraint_forces.clear();
@@ -156,7 +171,7 @@ void ProjectedContact::evaluate(const ContactPoint& point, ContactForces forces)
                            .weight = constraints.weight[constraint],
                            .k = {},
                            .constraint = static_cast<int>(constraint)};
-        const ConstraintForce multiplier = multipliers_.of(constraint_key(constraints, constraint));
+        const ConstraintForce multiplier = multipliers.of(constraint_key(constraints, constraint));
         const ConstraintState state = constraint_state(point, constraint, {min_distance_, multiplier.normal, pushing_weight_});
         const ConstraintForce& force =
             forces.constraint_forces.emplace_back(constraint_force(state, multiplier, point.step.dt, block.k));
@@ -186,8 +201,9 @@ void ProjectedContact::set_constraints(const ContactConstraints& constraints) {
 
 double ProjectedContact::mismatch(const ContactConstraints& constraints, const std::vector<ConstraintForce>& forces) const {
     double largest = 0.0;
+    const ContactMultipliers& multipliers = multipliers_at(constraints);
     for (std::size_t constraint = 0; constraint < constraints.size(); ++constraint) {
-        const ConstraintForce before = multipliers_.of(constraint_key(constraints, constraint));
+        const ConstraintForce before = multipliers.of(constraint_key(constraints, constraint));
         const double change =
             std::hypot(forces[constraint].normal - before.normal, (forces[constraint].friction - before.friction).norm());
         if (change > 0.0) largest = std::max(largest, change / forces[constraint].stiffness);

@@ -41,7 +41,11 @@ public:
     ContactLoss loss(const ContactMove& move, double stored) const override;
 
 private:
+    /// The multipliers at a point where constraints are gone: their forces have moved on (ContactMultipliers::transfer).
+    const ContactMultipliers& multipliers_at(const ContactConstraints& constraints) const;
+
     ContactMultipliers multipliers_;
+    mutable ContactMultipliers moved_on_;          // of the point evaluated last
     std::vector<ConstraintForce> lasting_forces_;  // scratch space of end
     std::vector<double> pushing_weight_;  // of each vertex, sum of weights of the constraints that push it as the stage begins
     double min_distance_ = 0.0;           // ContactWarmStart::min_distance

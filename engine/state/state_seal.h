@@ -5,6 +5,6 @@
 namespace percale {
 
 /// The seal of the bytes of Simulation::save. The version changes whenever their content changes, that of detectors included.
-constexpr SealKind state_seal{.name = "PERCALES", .version = 20, .words = "saved state"};
+constexpr SealKind state_seal{.name = "PERCALES", .version = 21, .words = "saved state"};
 
 }  // namespace percale

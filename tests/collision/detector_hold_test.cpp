@@ -1,7 +1,4 @@
-#include <algorithm>
-
 #include "collision/detector.h"
-#include "collision/obstacle/obstacle.h"
 #include "tests/support/catch.h"
 #include "tests/support/collision/scenes.h"
 #include "tests/support/random.h"
@@ -9,84 +6,54 @@
 namespace percale::test::detector_hold_test {
 namespace {
 
-/// A vertex on the top of a box near its ridge, and round the ridge at its side.
+/// A cloth edge across the ridge of a box.
 struct OverTheRidge {
     Steps steps;
     ContactConstraints constraints;
 
-    OverTheRidge() : steps(make_steps(Scene::box, triangle(), backends()[0])) {}
-    static TriangleMesh triangle() {
-        return {.vertices = {{0, 0, 0}, {0.02, 0.05, 0.003}, {0.02, 0.05, -0.003}}, .triangles = {{0, 1, 2}}};
+    OverTheRidge() : steps(make_steps(Scene::box, {.vertices = std::vector<Vec3>(3), .triangles = {{0, 1, 2}}}, backends()[0])) {}
+
+    /// Places where the edge's line is at (x, y) from the ridge (x = 0.2, y = 0.15) and perpendicular to that, in thicknesses.
+    static std::vector<Vec3> at(double x, double y) {
+        const Vec3 ridge(0.2, 0.15, 0.04), foot(x, y, 0.0), along = Vec3(-y, x, 0.0).normalized();
+        std::vector<Vec3> places{foot + 0.5 * along, foot - 0.6 * along, Vec3(3.0, 0.0, 0.1)};
+        for (Vec3& p : places) p = ridge + sheet_thickness * p;
+        return places;
     }
-    /// Place of the first vertex from the ridge (x = 0.2, y = 0.15), in thicknesses.
-    std::vector<Vec3> at(double x, double y) const {
-        std::vector<Vec3> result = steps.cloth.vertices;
-        for (Vec3& p : result) p += Vec3(0.2 + x * sheet_thickness, 0.15 + y * sheet_thickness, 0.04);
-        return result;
-    }
-    /// Contacts of the first vertex with triangles of the top.
-    int top_constraints() const {
+    /// Contacts of the edge with the box's edges.
+    int edge_constraints() const {
         int count = 0;
-        const Obstacle box(steps.obstacles[0].mesh, {}, 0.0, make_brute_force_tree);
-        for (std::size_t i = 0; i < constraints.size(); ++i) {
-            if (constraints.vertex[i][0] != 0 || constraints.vertex[i][1] >= 0) continue;
-            const Triangle& t = box.surface().triangles[constraints.feature[i]];
-            count += std::all_of(t.begin(), t.end(), [&](int v) { return box.at(v, 0).y() > 0.14; }) ? 1 : 0;
-        }
+        for (const auto& vertex : constraints.vertex) count += vertex == std::array{0, 1, -1, -1} ? 1 : 0;
         return count;
+    }
+    int found_at(const std::vector<Vec3>& places, bool next_step) {
+        if (next_step) steps.detector->update_candidates(places, places);
+        steps.detector->find_contacts(places, 0.0, constraints);
+        return edge_constraints();
     }
 };
 
 }  // namespace
 
-TEST_CASE("a contact stays one while it is near until the candidates are updated, even where it is no longer a minimum") {
+TEST_CASE("a contact of edges stays one while it is near until the candidates are updated, even where it is no minimum") {
     OverTheRidge scene;
-    // Beside the ridge, where only the side is nearest; the top's point is on the ridge, 31 degrees farther up.
-    const auto top = scene.at(-0.02, 0.3), side = scene.at(0.3, -0.18);
-    auto& detector = *scene.steps.detector;
-    detector.update_candidates(top, top);
-    detector.find_contacts(top, 0.0, scene.constraints);
-    CHECK(scene.top_constraints() == 1);
-    detector.find_contacts(side, 0.0, scene.constraints);
-    CHECK(scene.top_constraints() == 1);
-    const std::size_t held = scene.constraints.size();
-    detector.update_candidates(side, side);
-    detector.find_contacts(side, 0.0, scene.constraints);
-    CHECK(scene.top_constraints() == 0);
-    CHECK(scene.constraints.size() < held);
-    // Out of the thickness it is no constraint, back within it is one again.
-    detector.update_candidates(top, top);
-    detector.find_contacts(top, 0.0, scene.constraints);
-    detector.find_contacts(scene.at(-0.02, 1.1), 0.0, scene.constraints);
-    CHECK(scene.constraints.size() == 0);
+    // Seen from the ridge, the second place is below the box's top, beside its side: the side is nearer.
+    const auto top = OverTheRidge::at(0.4, 0.04), side = OverTheRidge::at(0.4, -0.08);
+    CHECK(scene.found_at(side, true) == 0);
+    CHECK(scene.found_at(top, true) == 1);
+    CHECK(scene.found_at(side, false) == 1);
+    CHECK(scene.found_at(side, true) == 0);
+    // Out of the thickness it is no constraint.
+    CHECK(scene.found_at(top, true) == 1);
+    CHECK(scene.found_at(OverTheRidge::at(1.1, 0.04), false) == 0);
 }
 
-TEST_CASE("a contact also stays one when the cloth outruns its boxes and lists are rebuilt") {
+TEST_CASE("a contact of edges also stays one when the cloth outruns its boxes and lists are rebuilt") {
     OverTheRidge scene;
-    const auto top = scene.at(-0.3, 0.3), side = scene.at(0.6, -0.4);  // more than the room around a vertex
-    auto& detector = *scene.steps.detector;
-    detector.update_candidates(top, top);
-    detector.find_contacts(top, 0.0, scene.constraints);
-    REQUIRE(scene.top_constraints() == 1);
-    detector.find_contacts(side, 0.0, scene.constraints);
-    CHECK(scene.top_constraints() == 1);
-    detector.update_candidates(side, side);
-    detector.find_contacts(side, 0.0, scene.constraints);
-    CHECK(scene.top_constraints() == 0);
-}
-
-TEST_CASE("a contact gives way where cloth passes an edge, as its neighbour takes its place") {
-    OverTheRidge scene;
-    const auto top = scene.at(-0.02, 0.3), side = scene.at(0.3, -0.02);
-    auto& detector = *scene.steps.detector;
-    detector.update_candidates(top, top);
-    detector.find_contacts(top, 0.0, scene.constraints);
-    REQUIRE(scene.top_constraints() == 1);
-    detector.find_contacts(side, 0.0, scene.constraints);
-    CHECK(scene.top_constraints() == 0);
-    // It has not ended: back where it was, it is one again.
-    detector.find_contacts(top, 0.0, scene.constraints);
-    CHECK(scene.top_constraints() == 1);
+    const auto top = OverTheRidge::at(0.2, 0.2), side = OverTheRidge::at(0.8, -0.3);  // more than the room around a vertex
+    CHECK(scene.found_at(top, true) == 1);
+    CHECK(scene.found_at(side, false) == 1);
+    CHECK(scene.found_at(side, true) == 0);
 }
 
 }  // namespace percale::test::detector_hold_test

@@ -18,6 +18,9 @@ class StateWriter;
 class StateReader;
 class Workers;
 
+/// Places on an obstacle triangle: inside it, on one of its edges, at one of its corners.
+inline constexpr int contact_places = 7;
+
 /// Contact constraints, a structure of arrays. In constraint i the cloth point sum_k weight[i][k] x[vertex[i][k]] is at
 /// `distance` from `obstacle_point`, along the unit vector `direction` (from the obstacle towards the cloth): direction . (sum_k
 /// weight[k] x[vertex[k]] - obstacle_point) = distance.
@@ -36,8 +39,9 @@ struct ContactConstraints {
     std::vector<double> mollifier;  // factor of the forces: less than 1 where other constraints hold the contact, too; with
                                     // projection such a constraint is a spring. Below 0: the constraint is subtracted
     std::vector<int> obstacle;      // -1: cloth against cloth
-    std::vector<int> feature;       // obstacle triangle, edge or vertex, by number of vertices used; between cloths the number of
-                                    // vertices on the first side: 1 vertex-face, 2 edge-edge
+    std::vector<int> feature;       // 2 vertices used: obstacle edge; 3: obstacle vertex; 1: contact_places times the obstacle
+                               // triangle and the place on it (0 inside, 1 + k edge k, 4 + k corner k); between cloths the number
+                               // of vertices on the first side: 1 vertex-face, 2 edge-edge
 
     std::size_t size() const { return vertex.size(); }
     /// Appends the constraints of another list.

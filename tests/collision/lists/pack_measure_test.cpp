@@ -43,9 +43,9 @@ void compare(const ContactPair& feature, std::span<const Vec3> cloth, Obstacle& 
     for (int lane = 0; lane < pack.count; ++lane) {
         ContactPair pair = feature;
         pair.feature = pack.feature[lane];
-        const PairContact contact = pair_contact(pair, cloth, obstacle, 0.0);
-        least = std::min(least, contact.distance);
-        const bool near = contact.distance < thickness, constraint = near && contact.local_minimum;
+        const double distance = pair_distance(pair, cloth, obstacle, 0.0);
+        least = std::min(least, distance);
+        const bool near = distance < thickness, constraint = makes_contact(pair, cloth, obstacle, 0.0, thickness);
         outcome.near += near ? 1 : 0;
         outcome.constraints += constraint ? 1 : 0;
         outcome.lost += (near && (answer.near >> lane & 1U) == 0) || (constraint && (answer.contact >> lane & 1U) == 0) ? 1 : 0;
@@ -115,8 +115,7 @@ TEST_CASE("no feature of a pack becomes a contact before the cloth has moved as 
             for (int lane = 0; lane < pack.count; ++lane) {
                 ContactPair pair = feature;
                 pair.feature = pack.feature[lane];
-                const PairContact contact = pair_contact(pair, moved, obstacle, 0.0);
-                constraints += contact.local_minimum && contact.distance < thickness ? 1 : 0;
+                constraints += makes_contact(pair, moved, obstacle, 0.0, thickness) ? 1 : 0;
             }
         }
     }

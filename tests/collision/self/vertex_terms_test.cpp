@@ -45,14 +45,14 @@ struct Above {
             const SelfPair pair{.vertex = {vertex(), triangles[t][0], triangles[t][1], triangles[t][2]},
                                 .feature = {vertex(), t},
                                 .thickness = h};
-            const VertexTerms terms = vertex_terms(pair, x, cloth);
-            for (const VertexTerm& term : std::span(terms.terms).first(terms.count)) {
-                Vec3 apart = Vec3::Zero();
-                for (int k = 0; k < 4; ++k) apart += term.weight[k] * x[pair.vertex[k]];
-                CHECK((apart - term.distance * term.direction).norm() < 1e-12);
+            const SurfaceTerms terms = vertex_terms(pair, x, cloth);
+            for (const SurfaceTerm& term : std::span(terms.terms).first(terms.count)) {
+                Vec3 apart = place;
+                for (int k = 0; k < 3; ++k) apart -= term.weight[k] * x[triangles[t][k]];
+                CHECK((apart - term.apart).norm() < 1e-12);
                 CHECK(term.distance < h);
                 sum.energy += term.factor * potential(term.distance);
-                sum.gradient += term.factor * slope(term.distance) * term.direction;
+                sum.gradient += term.factor * slope(term.distance) * term.apart / term.distance;
                 sum.factors += term.factor;
                 ++sum.terms;
             }
@@ -147,8 +147,8 @@ TEST_CASE("faces that hold the vertex itself are no part of the surface that it 
             const Triangle& c = whole.triangles[t];
             if (!cloth.meets(own, t)) continue;
             const SelfPair pair{.vertex = {own, c[0], c[1], c[2]}, .feature = {own, t}, .thickness = h};
-            const VertexTerms terms = vertex_terms(pair, x, cloth);
-            for (const VertexTerm& term : std::span(terms.terms).first(terms.count))
+            const SurfaceTerms terms = vertex_terms(pair, x, cloth);
+            for (const SurfaceTerm& term : std::span(terms.terms).first(terms.count))
                 energy += term.factor * potential(term.distance);
         }
         CHECK(energy == Approx(rest.sum_at(x[own]).energy).epsilon(1e-12).margin(1e-14));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "collision/lists/candidate_lists.h"
+#include "collision/lists/obstacle_terms.h"
 #include "percale/mesh.h"
 
 namespace percale::test {
@@ -38,6 +39,14 @@ inline std::vector<ContactPair> all_pairs(const TriangleMesh& cloth, const Obsta
         }
     }
     return pairs;
+}
+
+/// Whether a pair within a thickness makes contact constraints.
+inline bool makes_contact(const ContactPair& pair, std::span<const Vec3> cloth, const Obstacle& obstacle, double fraction,
+                          double thickness) {
+    if (!(pair_distance(pair, cloth, obstacle, fraction) < thickness)) return false;
+    return pair.kind == PairKind::vertex_face ? obstacle_terms(pair, cloth, obstacle, fraction, thickness).count > 0
+                                              : pair_contact(pair, cloth, obstacle, fraction).local_minimum;
 }
 
 /// A pair in a list, with the bound of its pack.
