@@ -55,15 +55,20 @@ public:
     }
 
 private:
+    /// Square of a sine that is rounding. 0: triangles of deforming bodies that lose their area count twice.
+    static constexpr double flat_square = 1e-24;
+
     /// The foot of the point on the line through an edge, the same to the last bit from all faces there: regions are told by it
-    /// alone, so that over flat meshes exactly one term is left even where rounding decides which.
+    /// alone, so that over flat meshes the factors add up to 1 even where rounding decides the region.
     struct Foot {
         int low = 0, high = 0;  // vertices
         double along = 0.0, length_squared = 0.0;
         Vec3 apart = Vec3::Zero();
 
         bool inside() const { return along > 0.0 && along < length_squared; }
-        bool at(int vertex) const { return vertex == low ? along <= 0.0 : along >= length_squared; }
+        /// An edge without length is at its lower end.
+        bool at(int vertex) const { return vertex == low ? along <= 0.0 : along > 0.0 && along >= length_squared; }
+        bool before(const Foot& other) const { return low < other.low || (low == other.low && high < other.high); }
     };
     Foot foot_on(int a, int b) const {
         Foot foot{.low = std::min(a, b), .high = std::max(a, b)};
@@ -76,9 +81,26 @@ private:
 
     static int next(int k) { return (k + 1) % 3; }
 
-    /// Whether the face between an edge and an opposite vertex ends at the foot as seen from the point: it does not rise there.
+    /// How a face goes on from the foot on its edge, as seen from the point: below 0 it falls away, above 0 it rises, and within
+    /// rounding of 0 the point is above the edge of the face's plane, or the face has no area.
+    int rise(const Foot& foot, int opposite) const {
+        const Vec3 across = surface_.at(opposite) - surface_.at(foot.low);
+        const double height = foot.apart.dot(across);
+        const bool flat = height * height <= flat_square * foot.apart.squaredNorm() * across.squaredNorm();
+        return flat ? 0 : height > 0.0 ? 1 : -1;
+    }
+
+    /// Whether the closest point of the face between an edge and an opposite vertex is the foot. A face without area ends at one
+    /// of its edges, the first.
     bool ends_at(const Foot& foot, int opposite) const {
-        return foot.inside() && foot.apart.dot(surface_.at(opposite) - surface_.at(foot.low)) <= 0.0;
+        if (!foot.inside()) return false;
+        const int own = rise(foot, opposite);
+        if (own != 0) return own < 0;
+        const auto ends_before = [&](int end, int other) {
+            const Foot beside = foot_on(end, opposite);
+            return beside.before(foot) && beside.inside() && rise(beside, other) == 0;
+        };
+        return !ends_before(foot.low, foot.high) && !ends_before(foot.high, foot.low);
     }
 
     bool ends_on_edge_or_corner() const {

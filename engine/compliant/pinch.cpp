@@ -66,14 +66,14 @@ Pressers pressers_of(const ContactConstraints& constraints) {
     bool layers = false;
     for (std::size_t constraint = 0; constraint < constraints.size(); ++constraint) {
         layers = layers || constraints.obstacle[constraint] < 0;
-        if (constraints.obstacle[constraint] < 0) continue;
+        if (constraints.obstacle[constraint] < 0 || constraints.mollifier[constraint] < 0.0) continue;
         const Presser one{constraint, constraints.direction[constraint], constraints.distance[constraint],
                           constraints.thickness[constraint]};
         for_each_vertex(constraints, constraint, 1.0, [&](int vertex) { add(pressers, vertex, one); });
     }
     for (int pass = 0; layers && pass < compliant_passes; ++pass) {
         for (std::size_t constraint = 0; constraint < constraints.size(); ++constraint) {
-            if (constraints.obstacle[constraint] >= 0) continue;
+            if (constraints.obstacle[constraint] >= 0 || constraints.mollifier[constraint] < 0.0) continue;
             for (const double side : {1.0, -1.0}) pass_through(constraints, constraint, side, pressers);
         }
     }

@@ -12,11 +12,11 @@ namespace percale {
 struct Push {
     int vertex = -1, obstacle = -1;
     Vec3 normal = Vec3::Zero(), friction = Vec3::Zero();
-    double normal_force = 0.0;    // N, the size of `normal`
+    double normal_force = 0.0;    // N, along the direction; below 0 where it is subtracted
     const Vec3* where = nullptr;  // m, on the obstacle; null where nothing presses
 };
 
-/// Calls visit(push) for every vertex of every pushing constraint with an obstacle, and for every friction contact. Friction of
+/// Calls visit(push) for every vertex of every constraint with an obstacle that acts, and for every friction contact. Friction of
 /// projection is in the constraints, friction of penalty in the friction contacts.
 template <class Visit>
 void for_each_push(const ContactConstraints& constraints, const ContactTerms& terms,

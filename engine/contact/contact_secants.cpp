@@ -18,13 +18,13 @@ constexpr double max_softening = 8.0;
 /// of its error; sheets in a pile tremble longer. 0: forces twice too large fall slowly.
 constexpr double balanced_share = 0.5;
 
-/// The sum of the sizes of the contact forces on each vertex, N.
+/// The sum of the sizes of the contact forces on each vertex, less those that are subtracted, N.
 void add_loads(const ContactBalance& balance, std::vector<double>& loads) {
     const ContactConstraints& constraints = balance.constraints;
     for (std::size_t constraint = 0; constraint < constraints.size(); ++constraint) {
         const double force = balance.weight * balance.forces[constraint].normal;
         for (int k = 0; k < 4 && constraints.vertex[constraint][k] >= 0; ++k)
-            loads[constraints.vertex[constraint][k]] += std::abs(constraints.weight[constraint][k] * force);
+            loads[constraints.vertex[constraint][k]] += std::abs(constraints.weight[constraint][k]) * force;
     }
 }
 

@@ -40,7 +40,8 @@ struct FrictionContact {
     bool had_anchor = false;                    // it had a stick anchor when the stage began
     Vec3 obstacle_displacement = Vec3::Zero();  // m, displacement of the anchor's point in the whole step
     Vec3 carried = Vec3::Zero();                // m N, of a deforming obstacle: sum of obstacle displacements times normal forces
-    double load = 0.0;                          // N, of a deforming obstacle: sum of the normal forces
+    double load = 0.0;                          // N, sum of the normal forces, those subtracted below 0
+    double pressed = 0.0;                       // N, sum of those above 0
     Vec3 slip = Vec3::Zero();                   // m, tangential, from the stick anchor
     Vec3 slip_direction = Vec3::Zero();         // unit, in which the tangent stiffness is dropped (active set); zero: the
                                                 // matrix treats the contact as sticking, also beyond the threshold

@@ -57,11 +57,13 @@ void ContactMultipliers::transfer(const ContactConstraints& constraints, const C
     forces_.clear(ordered_.size());
     for (const auto& [key, force] : ordered_) {
         const int *own = places_.find(key), *nearest = places_.find(of_cloth_feature(key));
-        const bool goes_on = nearest && (!own || has_left(constraints, *own, *nearest, clearance));
+        const bool goes_on = nearest && force.direction.dot(constraints.direction[*nearest]) > 0.0 &&
+                             (!own || has_left(constraints, *own, *nearest, clearance));
         ConstraintForce& handed = forces_.at(goes_on ? constraint_key(constraints, *nearest) : key);
         handed.normal += force.normal;
         handed.friction += force.friction;
         handed.stiffness = std::max(handed.stiffness, force.stiffness);
+        handed.direction = goes_on ? constraints.direction[*nearest] : force.direction;
     }
 }
 

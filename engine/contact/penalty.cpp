@@ -48,35 +48,32 @@ ContactStiffness constraint_stiffness(const ContactConstraints& constraints, std
     return {mollifier * stiffness.quadratic, mollifier * stiffness.quartic};
 }
 
-/// Adds the normal force of a constraint with an obstacle to the friction contacts of its vertices; below 0 that of one that is
-/// subtracted, after all others. Opposed normals, from the two sides of a gap, both add to the limit.
+/// Adds the normal force of a constraint with an obstacle to the friction contacts of its vertices. Opposed normals, from the two
+/// sides of a gap, both add to the limit; what is subtracted has no direction of its own (below 0: only to the load).
 void add_normal_force(const ContactConstraints& constraints, std::size_t constraint, double normal_force, const ContactStep& step,
                       FrictionContacts& friction_contacts) {
     const std::span<const ObstacleMotion> obstacle_motions = step.friction->obstacle_motions;
     const bool deforms = constraints.obstacle[constraint] < static_cast<int>(obstacle_motions.size()) &&
                          obstacle_motions[constraints.obstacle[constraint]].deforms;
-    const Vec3& n = constraints.direction[constraint];
-    const Vec3 friction_limit = constraints.friction[constraint] * normal_force * n;
+    const Vec3 friction_limit = constraints.friction[constraint] * normal_force * constraints.direction[constraint];
     for (int k = 0; k < 4 && constraints.vertex[constraint][k] >= 0; ++k) {
         if (constraints.weight[constraint][k] <= 0.0) continue;
         FrictionContact& friction_contact =
             friction_contacts.get(constraints.vertex[constraint][k], constraints.obstacle[constraint]);
-        friction_contact.friction_limit +=
-            (friction_contact.friction_limit.dot(n) < 0.0 ? -1.0 : 1.0) * constraints.weight[constraint][k] * friction_limit;
+        const double load = constraints.weight[constraint][k] * normal_force;
+        friction_contact.load += load;
         friction_contact.stick_threshold = stick_threshold_ratio * constraints.thickness[constraint];
-        if (!deforms) continue;
-        friction_contact.load += constraints.weight[constraint][k] * normal_force;
-        friction_contact.carried +=
-            constraints.weight[constraint][k] * normal_force * constraints.obstacle_displacement[constraint];
+        if (deforms) friction_contact.carried += load * constraints.obstacle_displacement[constraint];
+        if (normal_force < 0.0) continue;
+        friction_contact.pressed += load;
+        friction_contact.friction_limit += (friction_contact.friction_limit.dot(friction_limit) < 0.0 ? -1.0 : 1.0) *
+                                           constraints.weight[constraint][k] * friction_limit;
     }
 }
 
-void subtract_normal_forces(const ContactConstraints& constraints, const std::vector<ConstraintForce>& forces,
-                            const ContactStep& step, FrictionContacts& friction_contacts) {
-    for (std::size_t constraint = 0; constraint < constraints.size(); ++constraint) {
-        if (constraints.obstacle[constraint] >= 0 && constraints.friction[constraint] * forces[constraint].normal < 0.0)
-            add_normal_force(constraints, constraint, forces[constraint].normal, step, friction_contacts);
-    }
+/// What is subtracted reduces the limit of a vertex by the part that it is of what presses.
+void reduce_limit(FrictionContact& contact) {
+    if (contact.load < contact.pressed) contact.friction_limit *= std::max(0.0, contact.load / contact.pressed);
 }
 
 /// The direction in which the matrix leaves a vertex free, an active set: a contact that stuck and slipped slides, one that
@@ -235,14 +232,12 @@ void add_contact(const ContactConstraints& constraints, const ContactStep& step,
         terms.energy += potential.energy;
         terms.largest_stiffness = std::max(terms.largest_stiffness, potential.curvature);
         terms.obstacle_power += force.dot(constraints.obstacle_displacement[constraint]) * step.obstacle_rate;
-        if (has_friction && on_obstacle && potential.slope > 0.0)
+        if (has_friction && on_obstacle)
             add_normal_force(constraints, constraint, potential.slope, step, terms.friction_contacts);
     }
-    if (subtracts) {
-        if (step.friction) subtract_normal_forces(constraints, constraint_forces, step, terms.friction_contacts);
-        reduce_blocks(constraints, constraint_forces, static_cast<int>(step.mass->size()), terms);
-    }
+    if (subtracts) reduce_blocks(constraints, constraint_forces, static_cast<int>(step.mass->size()), terms);
     for (FrictionContact& friction_contact : terms.friction_contacts.all) {
+        reduce_limit(friction_contact);
         if (!friction_contact.friction_limit.isZero(0.0)) add_friction(step, positions, friction_contact, forces, terms);
     }
 }

@@ -104,20 +104,22 @@ ConstraintState constraint_state(const ContactPoint& point, std::size_t constrai
             .mollifier = constraints.mollifier[constraint]};
 }
 
-/// The force of a constraint, N; adds its matrix, kg, to the block; no matrix if it does not push.
+/// The force of a constraint, N; adds its matrix, kg, to the block; no matrix if it does not push, or is subtracted.
 ConstraintForce constraint_force(const ConstraintState& constraint, const ConstraintForce& multiplier, double dt,
                                  SymmetricBlock& block) {
-    ConstraintForce force{.normal = constraint.mollifier * std::max(0.0, multiplier.normal + constraint.spring.slope),
+    const double size_of_factor = std::abs(constraint.mollifier);
+    ConstraintForce force{.normal = size_of_factor * std::max(0.0, multiplier.normal + constraint.spring.slope),
                           .stiffness = constraint.stiffness};
     if (force.normal == 0.0) return force;
-    const double damping = constraint.mollifier * constraint.stiffness * dt, limit = constraint.friction * force.normal;
-    const Vec3 trial = constraint.mollifier * tangential(multiplier.friction, constraint.normal) - damping * constraint.slip;
+    const double damping = size_of_factor * constraint.stiffness * dt, limit = constraint.friction * force.normal;
+    const Vec3 trial = size_of_factor * tangential(multiplier.friction, constraint.normal) - damping * constraint.slip;
     const double size = trial.norm();
     const bool slides = size > limit;
     const double kept = slides ? limit / size : 1.0;
     force.friction = kept * trial;
+    if (constraint.mollifier < 0.0) return {.normal = -force.normal, .friction = -force.friction, .stiffness = force.stiffness};
     const Vec3 along = slides ? Vec3(trial / size) : Vec3(Vec3::Zero());
-    const double normal_part = constraint.mollifier * dt * dt * constraint.spring.curvature,
+    const double normal_part = size_of_factor * dt * dt * constraint.spring.curvature,
                  slip_part = constraint.friction > 0.0 ? dt * damping * kept : 0.0;
     add_normal_block(block, normal_part, constraint.normal);
     add_tangent_block(block, slip_part, constraint.normal, along);
@@ -137,7 +139,10 @@ Vec3 total(const ContactConstraints& constraints, std::size_t constraint, const 
 void take(const ContactConstraints& constraints, const std::vector<ConstraintForce>& forces, ContactMultipliers& multipliers) {
     multipliers.clear(constraints.size());
     for (std::size_t constraint = 0; constraint < constraints.size(); ++constraint) {
-        if (forces[constraint].normal > 0.0) multipliers.add(constraint_key(constraints, constraint), forces[constraint]);
+        if (!(forces[constraint].normal > 0.0)) continue;
+        ConstraintForce multiplier = forces[constraint];
+        multiplier.direction = constraints.direction[constraint];
+        multipliers.add(constraint_key(constraints, constraint), multiplier);
     }
 }
 
@@ -152,9 +157,10 @@ void ProjectedContact::begin(const ContactWarmStart& warm_start) {
 
 const ContactMultipliers& ProjectedContact::multipliers_at(const ContactConstraints& constraints) const {
     std::size_t found = 0;
-    for (std::size_t constraint = 0; constraint < constraints.size(); ++constraint)
-        found += multipliers_.knows(constraint_key(constraints, constraint));
-    if (found == multipliers_.size()) return multipliers_;
+    for (std::size_t constraint = 0; constraint < constraints.size(); ++constraint) {
+        if (constraints.obstacle[constraint] >= 0) found += multipliers_.knows(constraint_key(constraints, constraint));
+    }
+    if (found == multipliers_.count_with_obstacles()) return multipliers_;
     moved_on_ = multipliers_;
     moved_on_.transfer(constraints, gone);
     return moved_on_;
@@ -179,7 +185,7 @@ void ProjectedContact::evaluate(const ContactPoint& point, ContactForces forces)
         if (force.normal == 0.0) continue;
         const Vec3 whole = total(constraints, constraint, force);
         spread(constraints, constraint, whole, forces.total);
-        terms.blocks.push_back(block);
+        if (force.normal > 0.0) terms.blocks.push_back(block);
         terms.largest_stiffness = std::max(terms.largest_stiffness, state.stiffness);
         terms.obstacle_power += whole.dot(constraints.obstacle_displacement[constraint]) * point.step.obstacle_rate;
     }

@@ -118,7 +118,8 @@ void exchange(Archive& archive, Value& state) {
 
 template <class Archive, OfType<KeyedForce> Value>
 void exchange(Archive& archive, Value& row) {
-    archive(row.key.vertex, row.key.obstacle, row.key.feature, row.force.normal, row.force.friction, row.force.stiffness);
+    archive(row.key.vertex, row.key.obstacle, row.key.feature, row.force.normal, row.force.friction, row.force.stiffness,
+            row.force.direction);
 }
 
 template <class Archive, OfType<ClothAnchor> Value>

@@ -142,6 +142,7 @@ private:
     }
 
     void settle(std::size_t constraint) {
+        if (constraints_.mollifier[constraint] < 0.0) return;  // what is subtracted stops nothing
         const double force = move_.contacts.constraint_forces[constraint].normal;
         // Beside constraints that push, the vertices that they have stopped are thrown back, too.
         if (force <= 0.0 && restitution(constraint) == 0.0) return;

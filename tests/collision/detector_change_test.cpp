@@ -54,14 +54,23 @@ struct SinkingStep {
     std::size_t contacts() const { return constraints[0].size() + constraints[1].size() + constraints[2].size(); }
 };
 
-ContactConstraints without_obstacle(ContactConstraints constraints, int obstacle) {
-    for (std::size_t i = constraints.size(); i-- > 0;) {
-        if (constraints.obstacle[i] == obstacle)
-            constraints.erase(i);
-        else if (constraints.obstacle[i] > obstacle)
-            --constraints.obstacle[i];
+ContactConstraints without_obstacle(const ContactConstraints& all, int obstacle) {
+    ContactConstraints left;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (all.obstacle[i] == obstacle) continue;
+        left.vertex.push_back(all.vertex[i]);
+        left.weight.push_back(all.weight[i]);
+        left.direction.push_back(all.direction[i]);
+        left.obstacle_point.push_back(all.obstacle_point[i]);
+        left.obstacle_displacement.push_back(all.obstacle_displacement[i]);
+        left.distance.push_back(all.distance[i]);
+        left.thickness.push_back(all.thickness[i]);
+        left.friction.push_back(all.friction[i]);
+        left.mollifier.push_back(all.mollifier[i]);
+        left.obstacle.push_back(all.obstacle[i] > obstacle ? all.obstacle[i] - 1 : all.obstacle[i]);
+        left.feature.push_back(all.feature[i]);
     }
-    return constraints;
+    return left;
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "collision/detector.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include "tests/support/catch.h"
 #include "tests/support/collision/pairs.h"

@@ -48,10 +48,6 @@ struct ContactConstraints {
     void append(const ContactConstraints& more) {
         for_each_list([](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); }, *this, more);
     }
-    /// Removes constraint i; the later ones move up.
-    void erase(std::size_t i) {
-        for_each_list([i](auto& list) { list.erase(list.begin() + static_cast<std::ptrdiff_t>(i)); }, *this);
-    }
     void clear() {
         for_each_list([](auto& list) { list.clear(); }, *this);
     }
@@ -183,10 +179,9 @@ public:
     /// allowed: the lists then grow.
     virtual void update_candidates(std::span<const Vec3> start, std::span<const Vec3> predicted) = 0;
 
-    /// Every contact closer than the activation distance, with obstacles at `fraction` of the step. A pair of features that has
-    /// been a contact since the last update of the candidates persists while it is that near, unless a nearer one of the same
-    /// vertex in nearly the same direction has replaced it: within one solve forces change continuously. Those between cloths
-    /// begin anew with each update.
+    /// Every contact closer than the activation distance, with obstacles at `fraction` of the step. A pair of an obstacle with an
+    /// edge or a face of cloth that has been a contact since the last update of the candidates persists while it is that near:
+    /// within one solve forces change continuously.
     virtual void find_contacts(std::span<const Vec3> positions, double fraction, ContactConstraints& constraints) = 0;
 
     /// The largest f in [0, 1] such that moving all vertices along from + f (to - from), while the obstacles move over f of the

@@ -183,6 +183,37 @@ TEST_CASE("a vertex above a flat diagonal is pushed once, at its height") {
     }
 }
 
+TEST_CASE("triangles without area and edges without length do not push twice") {
+    // A square of which one side has a vertex in its middle, with a triangle without area there; and a fan with an edge of no
+    // length.
+    const TriangleMesh folded{.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}, {0.5, 0, 0}},
+                              .triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 4}}};
+    const TriangleMesh pinched{.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}, {0.4, 0, 0.4}, {0.4, 0, 0.4}},
+                               .triangles = {{0, 4, 1}, {1, 4, 5}, {1, 5, 2}, {2, 5, 3}, {3, 5, 4}, {3, 4, 0}}};
+    Random random(8);
+    for (const TriangleMesh& mesh : {folded, pinched}) {
+        for (int turn = 0; turn < 5; ++turn) {
+            const Pose pose = turn == 0 ? Pose{} : random.pose(0.5);
+            // Deforming bodies keep such triangles. Merging vertices at one place would make the second one another mesh.
+            TriangleMesh start = mesh;
+            if (mesh.vertices.size() == 6) start.vertices[5] += Vec3(0.01, 0.0, 0.0);
+            Obstacle obstacle(placed(start, pose), {}, 0.5, make_brute_force_tree, SurfaceShape::deforming);
+            const std::vector<Vec3> now = placed(mesh, pose).vertices;
+            obstacle.deform(now, now);
+            int wrong = 0;
+            for (int round = 0; round < 300; ++round) {
+                const double height = random.decades(1e-3, 0.15);
+                Vec3 place(random.number(0.0, 1.0), height, round % 2 == 0 ? 0.0 : random.number(0.0, 1.0));
+                place = placed({.vertices = {place}, .triangles = {}}, pose).vertices[0];
+                double distance = -1.0;
+                wrong += factors_of(obstacle, place, distance) == 1 && std::abs(distance - height) < 1e-12 ? 0 : 1;
+            }
+            CAPTURE(mesh.vertices.size(), turn);
+            CHECK(wrong <= 3);  // above an end of the line rounding decides between two edges and their corner
+        }
+    }
+}
+
 TEST_CASE("the places of constraints move with an obstacle that turns") {
     Random random(7);
     const TriangleMesh mesh = make_sphere(0.3, 1);

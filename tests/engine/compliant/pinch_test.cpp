@@ -70,6 +70,15 @@ TEST_CASE("Nothing has to give way for rigid obstacles, for those on one side, o
     }
 }
 
+TEST_CASE("The edge of a valley, which is subtracted, pinches nothing") {
+    Between cloth(true, true);
+    cloth.press(7, 0, Vec3::UnitY(), 0.1 * h);
+    cloth.press(7, 1, -Vec3::UnitY(), 0.1 * h);
+    REQUIRE(std::isfinite(cloth.retreats().by_constraint[0]));
+    cloth.constraints.mollifier = {-1.0, 1.0};
+    for (const double retreat : cloth.retreats().by_constraint) CHECK(std::isinf(retreat));
+}
+
 TEST_CASE("A pinch is seen through layers of cloth, with the distances between them") {
     for (const int layers : {1, 2, 3, 4}) {
         Between cloth(true, false);

@@ -316,6 +316,35 @@ TEST_CASE("Both sides of a gap add to the friction limit of a vertex") {
     CHECK(contact.terms.friction_contacts.find(0, 0)->friction_limit.norm() == Approx(force).epsilon(1e-12));
 }
 
+TEST_CASE("Over a valley friction is that of what presses less what is subtracted, in whatever order they come") {
+    const double opening = GENERATE(2.0, 1.0), turn = GENERATE(0.0, 0.05, -0.05);  // rad, of the normals apart: wide, and steep
+    const auto normal = [&](double angle) { return Vec3(std::sin(angle + turn), std::cos(angle + turn), 0.0); };
+    for (const bool subtracted_first : {false, true}) {
+        FrictionContact contact(1);
+        const auto add_valley_edge = [&] {
+            contact.add_point(normal(0.0), 0.8 * h, 0.5);
+            contact.constraints.mollifier.back() = -1.0;
+        };
+        if (subtracted_first) add_valley_edge();
+        contact.add_point(normal(0.5 * (std::acos(-1.0) - opening)), 0.7 * h, 0.5);
+        contact.add_point(normal(-0.5 * (std::acos(-1.0) - opening)), 0.7 * h, 0.5);
+        if (!subtracted_first) add_valley_edge();
+        contact.evaluate();
+        double added = 0.0, sum = 0.0;
+        for (const ConstraintForce& force : contact.constraint_forces) {
+            added += std::max(force.normal, 0.0);
+            sum += force.normal;
+        }
+        FrictionContact without(1);
+        without.add_point(normal(0.5 * (std::acos(-1.0) - opening)), 0.7 * h, 0.5);
+        without.add_point(normal(-0.5 * (std::acos(-1.0) - opening)), 0.7 * h, 0.5);
+        without.evaluate();
+        const Vec3 limit = contact.terms.friction_contacts.find(0, 0)->friction_limit,
+                   unreduced = without.terms.friction_contacts.find(0, 0)->friction_limit;
+        CHECK((limit - sum / added * unreduced).norm() < 1e-12 * unreduced.norm());
+    }
+}
+
 TEST_CASE("The power of an obstacle is its force times its velocity, friction included") {
     FrictionContact contact(1);
     contact.add_point(Vec3(0, 1, 0), 0.6 * h);

@@ -108,6 +108,33 @@ TEST_CASE("A projected constraint sticks inside Coulomb's cone and slides on it 
     }
 }
 
+TEST_CASE("A projected constraint that is subtracted has the opposite force and no matrix") {
+    for (const double speed : {0.0, 1e-4, 10.0}) {
+        OneConstraint counted(0.9 * h, Vec3(0.6 * speed, 0.0, 0.8 * speed)), subtracted = counted;
+        subtracted.constraints.mollifier = {-1.0};
+        counted.add();
+        subtracted.add();
+        REQUIRE(counted.forces[0].normal > 0.0);
+        CHECK(subtracted.forces[0].normal == -counted.forces[0].normal);
+        CHECK(subtracted.forces[0].friction == -counted.forces[0].friction);
+        CHECK((subtracted.total.at(0) + counted.total.at(0)).norm() == 0.0);
+        CHECK(subtracted.terms.blocks.empty());
+    }
+}
+
+TEST_CASE("The force of a constraint that is gone acts on in another of its cloth feature, and is back where it comes back") {
+    OneConstraint constraint(0.95 * h);
+    constraint.add();
+    constraint.advance();
+    const double push = constraint.forces[0].normal;
+    constraint.constraints.feature = {1};
+    constraint.add();
+    CHECK(constraint.forces[0].normal == Approx(push));
+    constraint.constraints.feature = {0};
+    constraint.add();
+    CHECK(constraint.forces[0].normal == Approx(push));
+}
+
 TEST_CASE("A force that moved on to another constraint of its cloth feature lasts there") {
     OneConstraint constraint(0.95 * h);
     constraint.add();

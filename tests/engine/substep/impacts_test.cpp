@@ -152,6 +152,15 @@ TEST_CASE("A point that hits an obstacle leaves at the restitution times its spe
     CHECK(too_fast.after(-2.0).on(0.5).settle() == Approx(1.0).epsilon(1e-14));
 }
 
+TEST_CASE("What is subtracted stops nothing and throws nothing back") {
+    for (const double restitution : {0.0, 0.7}) {
+        Hit hit(Vec3(0, 0.5, 0), -push);
+        hit.contacts.constraints.mollifier = {-1.0};
+        CHECK(hit.after(-2.0, {{0, 0, 2.0, true}}).on(restitution).settle() == 0.5);
+        CHECK(hit.end.impacts.empty());
+    }
+}
+
 TEST_CASE("Cloth that gravity alone presses is not thrown back") {
     Hit resting(Vec3(0, 0.0, 0));
     CHECK(resting.after(-0.05).on(1.0).settle() == 0.0);
