@@ -13,6 +13,10 @@ constexpr int leaf_size = 4;
 /// a split that may leave one item alone, meshes made of ever smaller parts give trees as deep as they have triangles.
 constexpr int max_uneven_split = 8;
 
+/// A tree whose boxes have grown by this factor, summed over its nodes, is built anew: cloth that folds up moves the items of a
+/// box apart. Cost alone. 1: every motion builds one. Large: queries of crumpled cloth open most of the tree.
+constexpr double max_growth = 1.5;
+
 std::vector<Box> boxes_of(std::span<const Corners> triangles) {
     std::vector<Box> boxes;
     boxes.reserve(triangles.size());
@@ -63,8 +67,32 @@ void BoxTree::build() {
     std::iota(order_.begin(), order_.end(), 0);
     if (items_.empty()) return;
     nodes_.reserve(items_.size());
+    nodes_.clear();
     nodes_.emplace_back();
     split(0, 0, static_cast<int>(items_.size()));
+    built_extent_ = summed_extent();
+}
+
+double BoxTree::summed_extent() const {
+    double sum = 0.0;
+    for (const Node& node : nodes_) sum += node.extent;
+    return sum;
+}
+
+void BoxTree::fit(std::span<const Corners> triangles) {
+    items_ = boxes_of(triangles);
+    // Children lie behind their parents.
+    for (std::size_t i = nodes_.size(); i-- > 0;) {
+        Node& node = nodes_[i];
+        node.box = {};
+        for (int item = node.first; item < node.first + node.count; ++item) node.box.add(items_[order_[item]]);
+        if (node.child > 0) {
+            node.box.add(nodes_[node.child].box);
+            node.box.add(nodes_[node.child + 1].box);
+        }
+        node.extent = (node.box.high - node.box.low).sum();
+    }
+    if (summed_extent() > max_growth * built_extent_) build();
 }
 
 void BoxTree::split(int node, int first, int count) {

@@ -34,11 +34,14 @@ double distance(const Box& a, const Box& b);
 /// The triangles of a mesh as corners.
 std::vector<Corners> corners_of(const TriangleMesh& mesh);
 
-/// A binary tree of boxes over boxes 0 ... n-1. Immutable, so queries may run in parallel.
+/// A binary tree of boxes over boxes 0 ... n-1. Queries may run in parallel.
 class BoxTree {
 public:
     explicit BoxTree(std::span<const Box> items);
     explicit BoxTree(std::span<const Corners> triangles);
+
+    /// As many items at other places: the boxes follow, and where they have grown too large the tree is built anew.
+    void fit(std::span<const Corners> triangles);
 
     /// The box of everything; empty for a tree without items.
     Box bounds() const { return nodes_.empty() ? Box{} : nodes_[0].box; }
@@ -78,6 +81,7 @@ private:
     using NodePair = std::pair<int, int>;
 
     void build();
+    double summed_extent() const;
     void split(int node, int first, int count);
     int partition(int first, int count);
 
@@ -89,6 +93,7 @@ private:
     std::vector<Box> items_;
     std::vector<int> order_;
     std::vector<Node> nodes_;
+    double built_extent_ = 0.0;  // m, sum over the nodes when the tree was built
 };
 
 template <class Enter, class Visit>

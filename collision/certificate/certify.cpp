@@ -7,7 +7,7 @@
 #include <numeric>
 #include <string>
 
-#include "certificate/box_tree.h"
+#include "certificate/certificate_mesh.h"
 #include "certificate/exact_orientation.h"
 #include "certificate/inside_test.h"
 #include "certificate/sewn_triangles.h"
@@ -35,30 +35,10 @@ struct Cancel {
     }
 };
 
-struct Surface {
-    std::vector<Corners> triangles;
-    BoxTree tree;
-
-    explicit Surface(const TriangleMesh& mesh) : triangles(corners_of(mesh)), tree(triangles) {}
-};
+using Surface = CertificateMesh::Prepared;
 
 void check_limit(double limit) {
     if (!(limit >= 0.0)) throw SceneError("certify: distance_limit is " + std::to_string(limit) + " m; it has to be 0 or more");
-}
-
-/// Squared areas stay below overflow.
-void check_range(const TriangleMesh& mesh, const std::string& name) {
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-        const double size = mesh.vertices[v].cwiseAbs().maxCoeff();
-        if (size <= tolerances::largest_coordinate) continue;
-        throw SceneError(name + ": vertex " + std::to_string(v) + " has a coordinate of magnitude " + std::to_string(size) +
-                         " m; the largest allowed is 1e75 m");
-    }
-}
-
-void check(const TriangleMesh& mesh, const std::string& name) {
-    check_mesh(mesh, name, false);
-    check_range(mesh, name);
 }
 
 void sort(std::vector<IntersectingPair>& pairs) {
@@ -179,7 +159,8 @@ bool one_sided(const Triangle& a, const Triangle& b, const TriangleMesh& mesh) {
 }
 
 /// How two triangles of one mesh meet, apart from the vertices that they share. They are touching only where they share none.
-Overlap overlap_within(const TriangleMesh& mesh, const Surface& surface, int i, int j) {
+Overlap overlap_within(const Surface& surface, int i, int j) {
+    const TriangleMesh& mesh = surface.mesh;
     const Triangle &a = mesh.triangles[i], &b = mesh.triangles[j];
     const bool neighbours = share_a_vertex(a, b);
     if (neighbours && (one_sided(a, b, mesh) || one_sided(b, a, mesh))) return Overlap::disjoint;
@@ -189,29 +170,32 @@ Overlap overlap_within(const TriangleMesh& mesh, const Surface& surface, int i, 
 
 }  // namespace
 
-Certificate certify(const TriangleMesh& cloth, const TriangleMesh& obstacle, double distance_limit,
+Certificate certify(const CertificateMesh& cloth, const CertificateMesh& obstacle, double distance_limit,
                     const std::atomic<bool>* cancel) {
-    check(cloth, "certify: cloth");
-    check(obstacle, "certify: obstacle");
     check_limit(distance_limit);
     const Cancel wish{cancel};
-    const Surface cloth_surface(cloth);
     wish.check();
-    const Surface obstacle_surface(obstacle);
+    const Surface &cloth_surface = cloth.prepared(), &obstacle_surface = obstacle.prepared();
     Certificate result;
     const std::vector<bool> free = find_pairs(cloth_surface, obstacle_surface, wish, result);
-    result.watertight = is_watertight(obstacle);
+    result.watertight = obstacle_surface.watertight();
     wish.check();
-    if (result.watertight) measure_depth(cloth, obstacle_surface, free, wish, result);
+    if (result.watertight) measure_depth(cloth_surface.mesh, obstacle_surface, free, wish, result);
     const bool meet = !result.pairs.empty() || result.touching_pairs > 0;
     result.smallest_distance = meet ? 0.0 : smallest_distance(cloth_surface, obstacle_surface, distance_limit, wish);
     return result;
 }
 
+Certificate certify(const TriangleMesh& cloth, const TriangleMesh& obstacle, double distance_limit,
+                    const std::atomic<bool>* cancel) {
+    return certify(CertificateMesh(cloth, "certify: cloth"), CertificateMesh(obstacle, "certify: obstacle"), distance_limit,
+                   cancel);
+}
+
 std::vector<double> surface_distances(const TriangleMesh& mesh, std::span<const Vec3> points, const std::atomic<bool>* cancel) {
-    check(mesh, "surface_distances: mesh");
+    check_certifiable(mesh, "surface_distances: mesh");
     const Surface surface(mesh);
-    const bool watertight = is_watertight(mesh);
+    const bool watertight = surface.watertight();
     const Box bounds = surface.tree.bounds();
     std::vector<double> distances;
     distances.reserve(points.size());
@@ -226,19 +210,18 @@ std::vector<double> surface_distances(const TriangleMesh& mesh, std::span<const 
     return distances;
 }
 
-ClothCertificate certify_cloth(const TriangleMesh& cloth, std::span<const Stitch> stitches, const MeetingCloth& meeting,
+ClothCertificate certify_cloth(const CertificateMesh& cloth, std::span<const Stitch> stitches, const MeetingCloth& meeting,
                                const std::atomic<bool>* cancel) {
-    check(cloth, "certify_cloth: cloth");
-    if (!meeting.cloth.empty() && meeting.cloth.size() != cloth.triangles.size())
+    const Surface& surface = cloth.prepared();
+    if (!meeting.cloth.empty() && meeting.cloth.size() != surface.triangles.size())
         throw SceneError("certify_cloth: the cloths of " + std::to_string(meeting.cloth.size()) + " triangles for " +
-                         std::to_string(cloth.triangles.size()));
-    const Surface surface(cloth);
-    const SewnTriangles sewn(cloth, stitches);
+                         std::to_string(surface.triangles.size()));
+    const SewnTriangles sewn(surface.mesh, stitches);
     ClothCertificate result;
     const Cancel wish{cancel};
     const auto visit = [&](int i, int j) {
         if (i >= j || !meeting.meet(i, j)) return;
-        const Overlap overlap = overlap_within(cloth, surface, i, j);
+        const Overlap overlap = overlap_within(surface, i, j);
         if (overlap == Overlap::disjoint) return;
         const bool together = sewn.together(i, j), cross = overlap == Overlap::crossing;
         if (cross) (together ? result.at_seams : result.crossing).push_back({i, j});
@@ -250,8 +233,13 @@ ClothCertificate certify_cloth(const TriangleMesh& cloth, std::span<const Stitch
     return result;
 }
 
+ClothCertificate certify_cloth(const TriangleMesh& cloth, std::span<const Stitch> stitches, const MeetingCloth& meeting,
+                               const std::atomic<bool>* cancel) {
+    return certify_cloth(CertificateMesh(cloth, "certify_cloth: cloth"), stitches, meeting, cancel);
+}
+
 CrossingSearch find_crossings(const TriangleMesh& mesh, long most_pairs, long most_tests) {
-    check(mesh, "find_crossings: mesh");
+    check_certifiable(mesh, "find_crossings: mesh");
     const Surface surface(mesh);
     CrossingSearch result;
     long tests = 0;
@@ -263,7 +251,7 @@ CrossingSearch find_crossings(const TriangleMesh& mesh, long most_pairs, long mo
             return;
         }
         ++tests;
-        if (overlap_within(mesh, surface, i, j) == Overlap::crossing) result.pairs.push_back({i, j});
+        if (overlap_within(surface, i, j) == Overlap::crossing) result.pairs.push_back({i, j});
     };
     surface.tree.walk_overlaps(surface.tree, visit, [&] { return !result.complete; });
     sort(result.pairs);
@@ -271,7 +259,7 @@ CrossingSearch find_crossings(const TriangleMesh& mesh, long most_pairs, long mo
 }
 
 std::vector<IntersectingPair> self_intersections(const TriangleMesh& mesh) {
-    check(mesh, "self_intersections: mesh");
+    check_certifiable(mesh, "self_intersections: mesh");
     const Surface surface(mesh);
     std::vector<IntersectingPair> pairs;
     surface.tree.walk_overlaps(surface.tree, [&](int i, int j) {

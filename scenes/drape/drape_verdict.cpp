@@ -84,8 +84,9 @@ DrapedFiles write_draped(const BuiltScene& built, const DrapeOptions& options, b
         write_obj(options.outs[k], own_axes, cloths[k].triangles);
         add_certificate(files.check, certify(cloths[k], body, 4.0 * options.fabric.thickness));
     }
+    const MeetingMesh joined = joined_meeting_cloth(cloths, sewn_stitches(built), all_pairs(static_cast<int>(cloths.size())));
     FrameCheck own;
-    add_cloth_certificate(own, cloths, sewn_stitches(built), all_pairs(static_cast<int>(cloths.size())));
+    add_cloth_certificate(own, certify_cloth(joined.mesh, joined.stitches, {joined.owner, &joined.pairs}));
     files.check.at_seams = own.at_seams;
     files.own_crossings = own.intersections;
     if (!options.no_self_contact) files.check.intersections += own.intersections;

@@ -11,7 +11,7 @@
 
 namespace percale::scenes {
 
-constexpr SealKind checkpoint_seal{.name = "PERCALEC", .version = 10, .words = "checkpoint"};
+constexpr SealKind checkpoint_seal{.name = "PERCALEC", .version = 11, .words = "checkpoint"};
 
 template <class Archive, OfType<Pinch> Value>
 void exchange(Archive& archive, Value& pinch) {
@@ -24,13 +24,14 @@ void exchange(Archive& archive, Value& totals) {
             totals.dropped.not_finite, totals.dropped.inexact, totals.sleeping_steps, totals.simulated_s, totals.smallest_step_s,
             totals.largest_step_s, totals.newton_iterations, totals.linear_iterations, totals.largest_residual);
     archive.choice(totals.linear_solver, 4);
-    archive(totals.contacts_most, totals.contact_stiffness, totals.stages, totals.cpu_s, totals.wall_s, totals.energy,
-            totals.pinches);
+    archive(totals.contacts_most, totals.contact_stiffness, totals.stages, totals.cpu_s, totals.wall_s, totals.certificate_s,
+            totals.energy, totals.pinches);
 }
 
 template <class Archive, OfType<FrameCheck> Value>
 void exchange(Archive& archive, Value& check) {
-    archive(check.intersections, check.touching_pairs, check.vertices_inside, check.deepest_penetration, check.smallest_distance);
+    archive(check.intersections, check.touching_pairs, check.at_seams, check.vertices_inside, check.deepest_penetration,
+            check.smallest_distance);
 }
 
 template <class Archive, OfType<StepChecks> Value>

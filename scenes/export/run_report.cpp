@@ -52,6 +52,7 @@ void put_costs(ordered_json& json, const RunTotals& totals) {
     const StageTimes& t = totals.stages;
     json["cpu_s"] = totals.cpu_s;
     json["wall_s"] = totals.wall_s;
+    json["certificate_s"] = totals.certificate_s;
     json["peak_memory_bytes"] = static_cast<long long>(peak_memory_bytes());
     json["stages"] = {{"refresh", t.refresh}, {"evaluate", t.evaluate}, {"force", t.force},    {"setup", t.setup},
                       {"solve", t.solve},     {"cut", t.cut},           {"measure", t.measure}};

@@ -32,30 +32,32 @@ PairsOfCloths all_pairs(int cloths) {
     return pairs;
 }
 
-void add_cloth_certificate(FrameCheck& check, std::span<const TriangleMesh> cloths, std::span<const ClothStitches> seams,
-                           std::span<const std::array<int, 2>> meeting, const std::atomic<bool>* cancel) {
-    if (meeting.empty()) return;
-    const int count = static_cast<int>(cloths.size());
-    ClothPairs pairs;
-    std::vector<bool> meets(cloths.size(), false);
-    for (const std::array<int, 2>& pair : all_pairs(count)) pairs.set(pair[0], pair[1], {.contact = false});
-    for (const auto& [first, second] : meeting) {
-        pairs.set(first, second, {});
-        meets[first] = meets[second] = true;
-    }
-    TriangleMesh all;
-    std::vector<int> owner, first_vertex(cloths.size(), -1);
-    for (int cloth = 0; cloth < count; ++cloth) {
-        if (!meets[cloth]) continue;
-        const int first = first_vertex[cloth] = static_cast<int>(all.vertices.size());
-        all.vertices.insert(all.vertices.end(), cloths[cloth].vertices.begin(), cloths[cloth].vertices.end());
-        for (const auto& [a, b, c] : cloths[cloth].triangles) all.triangles.push_back({first + a, first + b, first + c});
-        owner.resize(all.triangles.size(), cloth);
-    }
-    const ClothCertificate certificate = certify_cloth(all, joined_stitches(seams, first_vertex), {owner, &pairs}, cancel);
+void add_cloth_certificate(FrameCheck& check, const ClothCertificate& certificate) {
     check.intersections += static_cast<int>(certificate.crossing.size());
     check.touching_pairs += static_cast<int>(certificate.touching.size());
     check.at_seams += static_cast<int>(certificate.at_seams.size());
+}
+
+MeetingMesh joined_meeting_cloth(std::span<const TriangleMesh> cloths, std::span<const ClothStitches> seams,
+                                 std::span<const std::array<int, 2>> meeting) {
+    const int count = static_cast<int>(cloths.size());
+    MeetingMesh all;
+    std::vector<bool> meets(cloths.size(), false);
+    for (const std::array<int, 2>& pair : all_pairs(count)) all.pairs.set(pair[0], pair[1], {.contact = false});
+    for (const auto& [first, second] : meeting) {
+        all.pairs.set(first, second, {});
+        meets[first] = meets[second] = true;
+    }
+    std::vector<int> first_vertex(cloths.size(), -1);
+    for (int cloth = 0; cloth < count; ++cloth) {
+        if (!meets[cloth]) continue;
+        const int first = first_vertex[cloth] = static_cast<int>(all.mesh.vertices.size());
+        all.mesh.vertices.insert(all.mesh.vertices.end(), cloths[cloth].vertices.begin(), cloths[cloth].vertices.end());
+        for (const auto& [a, b, c] : cloths[cloth].triangles) all.mesh.triangles.push_back({first + a, first + b, first + c});
+        all.owner.resize(all.mesh.triangles.size(), cloth);
+    }
+    all.stitches = joined_stitches(seams, first_vertex);
+    return all;
 }
 
 namespace {

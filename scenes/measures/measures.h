@@ -31,14 +31,22 @@ struct FrameCheck {
 };
 
 void add_certificate(FrameCheck& check, const Certificate& certificate);
+/// Distances between cloths are not measured.
+void add_cloth_certificate(FrameCheck& check, const ClothCertificate& certificate);
 
 /// Pairs of cloths by their numbers, of a cloth with itself, too: first <= second, in ascending order.
 using PairsOfCloths = std::vector<std::array<int, 2>>;
 PairsOfCloths all_pairs(int cloths);
 
-/// Adds the pairs of cloths that meet; distances between cloths are not measured. `cancel`: as of certify_cloth.
-void add_cloth_certificate(FrameCheck& check, std::span<const TriangleMesh> cloths, std::span<const ClothStitches> seams,
-                           std::span<const std::array<int, 2>> meeting, const std::atomic<bool>* cancel = nullptr);
+/// The cloths that meet any, as one mesh, with what certify_cloth needs to know of it.
+struct MeetingMesh {
+    TriangleMesh mesh;
+    std::vector<int> owner;  // the cloth of each triangle
+    std::vector<Stitch> stitches;
+    ClothPairs pairs;
+};
+MeetingMesh joined_meeting_cloth(std::span<const TriangleMesh> cloths, std::span<const ClothStitches> seams,
+                                 std::span<const std::array<int, 2>> meeting);
 
 /// What the certificates of all states say, one after each step and one of the start.
 struct StepChecks {

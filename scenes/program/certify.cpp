@@ -14,7 +14,7 @@
 #include "export/run_report.h"
 #include "frames/frame_formats.h"
 #include "garment/seam_stitches.h"
-#include "measures/measures.h"
+#include "measures/frame_certifier.h"
 #include "meshes/mesh_import.h"
 #include "percale/error.h"
 #include "program/commands.h"
@@ -111,27 +111,27 @@ const TriangleMesh& cached_mesh(MeshCache& cache, const std::string& file) {
     return found != cache.end() ? found->second : cache.emplace(file, import_mesh(file)).first->second;
 }
 
-void check_frame(CertifiedFrame& frame, double distance_limit, MeshCache& obstacles) {
-    for (auto entry = obstacles.begin(); entry != obstacles.end();) {
+void check_frame(CertifiedFrame& frame, FrameCertifier& certifier, MeshCache& cache) {
+    for (auto entry = cache.begin(); entry != cache.end();) {
         const bool needed = std::find(frame.obstacles.begin(), frame.obstacles.end(), entry->first) != frame.obstacles.end();
-        entry = needed ? std::next(entry) : obstacles.erase(entry);
+        entry = needed ? std::next(entry) : cache.erase(entry);
     }
-    std::vector<TriangleMesh> cloths;
-    for (const std::string& file : frame.cloths) {
-        const TriangleMesh& cloth = cloths.emplace_back(import_mesh(file));
-        for (const std::string& obstacle : frame.obstacles)
-            add_certificate(frame.check, certify(cloth, cached_mesh(obstacles, obstacle), distance_limit));
-    }
-    add_cloth_certificate(frame.check, cloths, frame.seams, frame.meeting);
+    std::vector<TriangleMesh> cloths, obstacles;
+    for (const std::string& file : frame.cloths) cloths.push_back(import_mesh(file));
+    for (const std::string& file : frame.obstacles) obstacles.push_back(cached_mesh(cache, file));
+    frame.check = certifier.check({cloths, obstacles, frame.seams, frame.meeting});
 }
 
 Verdict check_frames(std::vector<CertifiedFrame> frames, double distance_limit) {
     Verdict verdict;
     verdict.frames = std::move(frames);
     MeshCache obstacles;
+    std::size_t cloths = 0;
+    for (const CertifiedFrame& frame : verdict.frames) cloths = std::max(cloths, frame.cloths.size());
+    FrameCertifier certifier(std::vector<double>(cloths, distance_limit));
     for (std::size_t i = 0; i < verdict.frames.size(); ++i) {
         CertifiedFrame& frame = verdict.frames[i];
-        check_frame(frame, distance_limit, obstacles);
+        check_frame(frame, certifier, obstacles);
         add_frame(verdict.measures, static_cast<int>(i), frame.check);
         verdict.clean = verdict.clean && frame.check.clean();
     }

@@ -108,9 +108,12 @@ BuiltScene built_scene(const RunOptions& options, const Checkpoint* from) {
 void print_summary(const RunOptions& options, const BuiltScene& built, const RunResult& result,
                    std::span<const ExpectationResult> expectations) {
     const Measures& m = result.measures;
-    std::printf("%s%s: %d steps, %.6g s simulated in %.3g s (CPU %.3g s), largest strain %.3g, speed at end %.3g m/s",
-                verdict_of_run(result).word.c_str(), result.rest && result.rest->at_rest ? " at rest" : "", result.totals.steps,
-                result.totals.simulated_s, result.totals.wall_s, result.totals.cpu_s, m.largest_strain, m.speed_at_end);
+    std::printf(
+        "%s%s: %d steps, %.6g s simulated in %.3g s (steps %.3g s CPU, certificate %.3g s), largest strain %.3g, speed at end "
+        "%.3g m/s",
+        verdict_of_run(result).word.c_str(), result.rest && result.rest->at_rest ? " at rest" : "", result.totals.steps,
+        result.totals.simulated_s, result.totals.wall_s, result.totals.cpu_s, result.totals.certificate_s, m.largest_strain,
+        m.speed_at_end);
     if (built.scene.has_contact())
         std::printf(", %d intersecting pairs, %s", m.intersections, nearness_text(m.smallest_distance).c_str());
     std::printf("; %s/report.json\n", options.folder.c_str());

@@ -10,6 +10,7 @@
 
 #include "common/scene_file_error.h"
 #include "common/text.h"
+#include "measures/frame_certifier.h"
 #include "measures/references.h"
 #include "measures/timed_measures.h"
 #include "percale/error.h"
@@ -35,46 +36,49 @@ const char* status_word(RunStatus status) {
 
 namespace {
 
-/// Beyond this the certificate need not say how far apart the surfaces are.
-double distance_limit(const BuiltScene& built, std::size_t cloth) {
-    const auto fabric = built.scene.fabrics.find(built.scene.cloths[cloth].fabric);
-    return fabric == built.scene.fabrics.end() ? std::numeric_limits<double>::infinity() : 4.0 * fabric->second.thickness;
+/// Beyond these, m, the certificates of the cloths need not say how far apart the surfaces are.
+std::vector<double> distance_limits(const BuiltScene& built) {
+    std::vector<double> limits;
+    for (const ClothSpec& cloth : built.scene.cloths) {
+        const auto fabric = built.scene.fabrics.find(cloth.fabric);
+        limits.push_back(fabric == built.scene.fabrics.end() ? std::numeric_limits<double>::infinity()
+                                                             : 4.0 * fabric->second.thickness);
+    }
+    return limits;
 }
 
 Frame first_frame(const BuiltScene& built) {
-    Frame frame;
-    frame.cloths = built.cloth_meshes;
-    frame.obstacles = built.obstacle_meshes;
-    return frame;
+    return {.cloths = built.cloth_meshes, .obstacles = built.obstacle_meshes, .check = {}};
 }
 
-void certify_meeting_cloth(const BuiltScene& built, const std::atomic<bool>* cancel, Frame& frame) {
-    frame.meeting = all_pairs(static_cast<int>(frame.cloths.size()));
-    std::erase_if(frame.meeting, [&](const std::array<int, 2>& pair) {
+PairsOfCloths meeting_cloths(const BuiltScene& built) {
+    PairsOfCloths meeting = all_pairs(static_cast<int>(built.cloths.size()));
+    std::erase_if(meeting, [&](const std::array<int, 2>& pair) {
         return !built.simulation.meets(built.cloths[pair[0]], built.cloths[pair[1]]);
     });
-    add_cloth_certificate(frame.check, frame.cloths, sewn_stitches(built), frame.meeting, cancel);
+    return meeting;
 }
 
-void place_and_certify(const BuiltScene& built, const std::atomic<bool>* cancel, Frame& frame) {
-    frame.time = built.simulation.time();
-    frame.check = {};
-    place_shapes(built, frame.cloths, frame.obstacles);
-    for (std::size_t cloth = 0; cloth < frame.cloths.size(); ++cloth)
-        for (const TriangleMesh& obstacle : frame.obstacles)
-            add_certificate(frame.check, certify(frame.cloths[cloth], obstacle, distance_limit(built, cloth), cancel));
-    certify_meeting_cloth(built, cancel, frame);
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 /// Looks at the state after each step: certificates, frames.
 class Observer {
 public:
     Observer(const BuiltScene& built, const RunHooks& hooks, Measures& measures, const RunState* from)
-        : built_(built), hooks_(hooks), measures_(measures), frame_(first_frame(built)), framed_(from && from->framed) {
+        : built_(built),
+          hooks_(hooks),
+          measures_(measures),
+          frame_(first_frame(built)),
+          certifier_(distance_limits(built)),
+          framed_(from && from->framed) {
         frame_.index = from ? from->next_frame : 0;
     }
 
     int next_frame() const { return frame_.index; }
+    /// s of wall time that certificates took so far.
+    double certificate_s() const { return certificate_s_; }
     bool framed() const { return framed_; }
     /// The certificate of the present state, made unless it is there.
     const FrameCheck& check() {
@@ -107,8 +111,17 @@ public:
 
 private:
     void see() {
-        if (!seen_) place_and_certify(built_, hooks_.cancel, frame_);
+        if (!seen_) certify_state();
         seen_ = true;
+    }
+
+    void certify_state() {
+        frame_.time = built_.simulation.time();
+        place_shapes(built_, frame_.cloths, frame_.obstacles);
+        frame_.meeting = meeting_cloths(built_);
+        const auto start = std::chrono::steady_clock::now();
+        frame_.check = certifier_.check({frame_.cloths, frame_.obstacles, sewn_stitches(built_), frame_.meeting}, hooks_.cancel);
+        certificate_s_ += seconds_since(start);
     }
 
     /// Makes the frames due by now; several where the frame rate is higher than the step rate.
@@ -132,6 +145,8 @@ private:
     const RunHooks& hooks_;
     Measures& measures_;
     Frame frame_;
+    FrameCertifier certifier_;
+    double certificate_s_ = 0.0;
     bool seen_ = false;  // the frame shows the current state
     bool framed_;        // and was made
 };
@@ -309,8 +324,8 @@ public:
         if (script_.rest) result_.rest = script_.rest->figures();
         result_.timed = script_.timed.values();
         result_.totals.simulated_s = built_.simulation.time();
-        result_.totals.wall_s =
-            earlier_wall_s_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+        result_.totals.wall_s = earlier_wall_s_ + seconds_since(start_);
+        result_.totals.certificate_s = earlier_certificate_s_ + script_.observer.certificate_s();
     }
 
 private:
@@ -366,6 +381,7 @@ private:
         result_.resumed_at = from.resumed_at;
         result_.resumed_at.push_back(built_.simulation.time());
         earlier_wall_s_ = from.totals.wall_s;
+        earlier_certificate_s_ = from.totals.certificate_s;
     }
 
     RunState state() {
@@ -384,7 +400,7 @@ private:
     }
 
     const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-    double earlier_wall_s_ = 0.0;
+    double earlier_wall_s_ = 0.0, earlier_certificate_s_ = 0.0;
     BuiltScene& built_;
     const RunHooks& hooks_;
     RunResult& result_;

@@ -48,6 +48,7 @@ struct RunTotals {
     StageTimes stages;               // CPU seconds
     double cpu_s = 0.0;              // CPU seconds of all threads inside steps only
     double wall_s = 0.0;             // whole run, output included
+    double certificate_s = 0.0;      // of wall time that the certificates of frames and states took
     std::vector<Pinch> pinches;      // in the order of their beginnings
     StepEnergy energy;               // J, at the end; work and losses are summed over the run
 };

@@ -36,7 +36,7 @@ inline WatchedRun watch(const Scene& scene, const RunSettings& settings) {
     };
     run.result = run_scene(built, hooks, settings);
     run.report = nlohmann::json::parse(run_report_text(built, run.result, {}, {}));
-    for (const char* cost : {"cpu_s", "wall_s", "peak_memory_bytes", "stages"}) run.report.erase(cost);
+    for (const char* cost : {"cpu_s", "wall_s", "certificate_s", "peak_memory_bytes", "stages"}) run.report.erase(cost);
     return run;
 }
 

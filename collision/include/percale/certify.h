@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "percale/certificate_mesh.h"
 #include "percale/cloth_pairs.h"
 #include "percale/mesh.h"
 #include "percale/stitch.h"
@@ -41,6 +42,8 @@ public:
 /// An exact check that shares no code with the solver: triangle-triangle tests by exact predicates, signed depth of every cloth
 /// vertex, smallest distance between the surfaces (searched up to `distance_limit`, m; beyond it stays infinity). Both meshes in
 /// world coordinates, finite. Thread-safe. Throws CertificateCancelled soon after `cancel`, where there is one, has become true.
+Certificate certify(const CertificateMesh& cloth, const CertificateMesh& obstacle,
+                    double distance_limit = std::numeric_limits<double>::infinity(), const std::atomic<bool>* cancel = nullptr);
 Certificate certify(const TriangleMesh& cloth, const TriangleMesh& obstacle,
                     double distance_limit = std::numeric_limits<double>::infinity(), const std::atomic<bool>* cancel = nullptr);
 
@@ -60,6 +63,8 @@ struct ClothCertificate {
 /// share more than their common vertices, edge or points. Triangles at one stitch (each has a vertex of it) are counted
 /// separately, since how far they cross depends on its gap and on how the sides of the seam are divided. Triangles of cloths that
 /// do not meet (`meeting`) are not tested. Thread-safe. `cancel`: as of certify.
+ClothCertificate certify_cloth(const CertificateMesh& cloth, std::span<const Stitch> stitches = {},
+                               const MeetingCloth& meeting = {}, const std::atomic<bool>* cancel = nullptr);
 ClothCertificate certify_cloth(const TriangleMesh& cloth, std::span<const Stitch> stitches = {}, const MeetingCloth& meeting = {},
                                const std::atomic<bool>* cancel = nullptr);
 

@@ -54,7 +54,8 @@ function figures(report) {
   const cpu = isNumber(report.cpu_s) && report.simulated_s > 0 ? withUnit(report.cpu_s / report.simulated_s, 's/s') : '–';
   return card('The run', tiles([
     ['Simulated', seconds(report.simulated_s)], ['Steps', whole(report.steps)], ['Rejected steps', whole(report.rejected_steps)],
-    ['CPU time', seconds(report.cpu_s)], ['CPU per simulated s', cpu], ['Newton iterations', whole(report.newton_iterations)],
+    ['CPU time of steps', seconds(report.cpu_s)], ['CPU per simulated s', cpu], ['Certificates', seconds(report.certificate_s)],
+    ['Whole run', seconds(report.wall_s)], ['Newton iterations', whole(report.newton_iterations)],
     ['Most contacts', whole(report.contacts_most)], ['Largest strain', percent(report.largest_strain)],
     ['Speed at end', withUnit(report.speed_at_end, 'm/s')], ['Peak memory', bytesText(report.peak_memory_bytes)],
     ['Scheme', typeof report.scheme === 'string' ? report.scheme.replace(/_/g, ' ') : null],

@@ -54,6 +54,7 @@ TEST_CASE("a report holds every entry that users may rely on") {
                             "linear_solver",
                             "cpu_s",
                             "wall_s",
+                            "certificate_s",
                             "peak_memory_bytes",
                             "stages",
                             "obstacles",

@@ -57,18 +57,19 @@ TEST_CASE("certificates of one frame add up: pairs and vertices sum, depth and d
     CHECK_FALSE(check.clean());
 }
 
-TEST_CASE("cloths that meet are certified against themselves and each other, all together") {
-    const TriangleMesh low = make_grid(1, 1, 3, 3);
-    TriangleMesh high = low;
-    for (Vec3& x : high.vertices) x += Vec3(0.01, 0.1, 0.02);
-    FrameCheck check;
-    add_cloth_certificate(check, std::vector{low, high}, {}, all_pairs(2));
-    CHECK(check.clean());
-    CHECK(check.touching_pairs == 0);
-    high.vertices[4].y() = -0.1;
-    add_cloth_certificate(check, std::vector{low, high}, {}, all_pairs(2));
-    CHECK(check.intersections > 0);
-    CHECK_FALSE(check.clean());
+TEST_CASE("cloths that meet are joined to one mesh, with their pairs and stitches") {
+    const std::vector<TriangleMesh> cloths{make_grid(1, 1, 2, 2), make_grid(1, 1, 3, 3), make_grid(1, 1, 2, 2)};
+    const PairsOfCloths meeting{{0, 2}};
+    const std::vector<ClothStitches> seams{{{0, 2}, {{.vertex = 1, .from = 2, .to = 3, .share = 0.5}}},
+                                           {{0, 1}, {{.vertex = 0, .from = 4, .to = 4, .share = 0.0}}}};
+    const MeetingMesh joined = joined_meeting_cloth(cloths, seams, meeting);
+    CHECK(joined.mesh.vertices.size() == 8);  // not the second
+    CHECK(joined.owner == std::vector<int>{0, 0, 2, 2});
+    CHECK(joined.mesh.triangles[2][0] == cloths[2].triangles[0][0] + 4);
+    REQUIRE(joined.stitches.size() == 1);
+    CHECK((joined.stitches[0].vertex < 4 && joined.stitches[0].from >= 4));
+    CHECK(joined.pairs.of(0, 2).contact);
+    CHECK_FALSE(joined.pairs.of(0, 0).contact);
 }
 
 TEST_CASE("a vertex inside an obstacle makes a frame unclean even if no triangles cross") {
