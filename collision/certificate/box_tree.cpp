@@ -13,10 +13,6 @@ constexpr int leaf_size = 4;
 /// a split that may leave one item alone, meshes made of ever smaller parts give trees as deep as they have triangles.
 constexpr int max_uneven_split = 8;
 
-/// A tree whose boxes have grown by this factor, summed over its nodes, is built anew: cloth that folds up moves the items of a
-/// box apart. Cost alone. 1: every motion builds one. Large: queries of crumpled cloth open most of the tree.
-constexpr double max_growth = 1.5;
-
 std::vector<Box> boxes_of(std::span<const Corners> triangles) {
     std::vector<Box> boxes;
     boxes.reserve(triangles.size());
@@ -67,16 +63,8 @@ void BoxTree::build() {
     std::iota(order_.begin(), order_.end(), 0);
     if (items_.empty()) return;
     nodes_.reserve(items_.size());
-    nodes_.clear();
     nodes_.emplace_back();
     split(0, 0, static_cast<int>(items_.size()));
-    built_extent_ = summed_extent();
-}
-
-double BoxTree::summed_extent() const {
-    double sum = 0.0;
-    for (const Node& node : nodes_) sum += node.extent;
-    return sum;
 }
 
 void BoxTree::fit(std::span<const Corners> triangles) {
@@ -92,7 +80,6 @@ void BoxTree::fit(std::span<const Corners> triangles) {
         }
         node.extent = (node.box.high - node.box.low).sum();
     }
-    if (summed_extent() > max_growth * built_extent_) build();
 }
 
 void BoxTree::split(int node, int first, int count) {

@@ -40,7 +40,7 @@ public:
     explicit BoxTree(std::span<const Box> items);
     explicit BoxTree(std::span<const Corners> triangles);
 
-    /// As many items at other places: the boxes follow, and where they have grown too large the tree is built anew.
+    /// The same items at other places: the boxes follow. Neighbours on a surface stay near each other, however it folds.
     void fit(std::span<const Corners> triangles);
 
     /// The box of everything; empty for a tree without items.
@@ -81,7 +81,6 @@ private:
     using NodePair = std::pair<int, int>;
 
     void build();
-    double summed_extent() const;
     void split(int node, int first, int count);
     int partition(int first, int count);
 
@@ -93,7 +92,6 @@ private:
     std::vector<Box> items_;
     std::vector<int> order_;
     std::vector<Node> nodes_;
-    double built_extent_ = 0.0;  // m, sum over the nodes when the tree was built
 };
 
 template <class Enter, class Visit>

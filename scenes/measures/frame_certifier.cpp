@@ -16,11 +16,13 @@ void FrameCertifier::take(std::span<const TriangleMesh> meshes, std::vector<Shap
 }
 
 FrameCheck FrameCertifier::check(const CertifiedShapes& shapes, const std::atomic<bool>* cancel) {
-    const std::size_t pairs = shapes.cloths.size() * shapes.obstacles.size();
-    const bool known = std::exchange(known_, false) && with_obstacles_.size() == pairs && cloths_.size() == shapes.cloths.size();
+    // Without obstacles nothing of a cloth is needed.
+    const std::span<const TriangleMesh> cloths = shapes.obstacles.empty() ? std::span<const TriangleMesh>() : shapes.cloths;
+    const std::size_t pairs = cloths.size() * shapes.obstacles.size();
+    const bool known = std::exchange(known_, false) && with_obstacles_.size() == pairs && cloths_.size() == cloths.size();
     if (!known) cloths_.clear();
     if (!known) obstacles_.clear();
-    take(shapes.cloths, cloths_);
+    take(cloths, cloths_);
     take(shapes.obstacles, obstacles_);
     with_obstacles_.resize(pairs);
     FrameCheck check;

@@ -33,7 +33,7 @@ TEST_CASE("a prepared mesh that moves gives the certificates of a new one") {
     TriangleMesh cloth = flat, body = spiky_ball(0.3, 1, 0.3, 7);
     CertificateMesh kept_cloth(cloth), kept_body(body);
     for (int round = 0; round < 30; ++round) {
-        // The sheet is crumpled to a tenth of its size and spread again: its boxes grow past all bounds.
+        // The sheet is crumpled to a tenth of its size and spread again, the tree of the flat one stays.
         const double size = 0.1 + 0.9 * std::abs(std::cos(0.3 * round));
         for (std::size_t i = 0; i < cloth.vertices.size(); ++i)
             cloth.vertices[i] = size * flat.vertices[i] + random.point(0.5 - 0.45 * size);

@@ -15,7 +15,8 @@ namespace {
 /// The report without what a clock or the interruption says.
 nlohmann::json figures(const TestFolder& folder, const std::string& name) {
     auto report = nlohmann::json::parse(folder.read(name + "/report.json"));
-    for (const char* entry : {"cpu_s", "wall_s", "certificate_s", "peak_memory_bytes", "stages", "resumed_at_s"}) report.erase(entry);
+    for (const char* entry : {"cpu_s", "wall_s", "certificate_s", "peak_memory_bytes", "stages", "resumed_at_s"})
+        report.erase(entry);
     return report;
 }
 
