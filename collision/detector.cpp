@@ -17,6 +17,16 @@
 namespace percale {
 namespace {
 
+/// Fraction of h. The next update of the candidates drops the persistent contacts with obstacles of a vertex that has moved
+/// farther than this since they were last dropped. 0: cloth at rest trembles between two sets of contacts. Large: contacts of
+/// places that cloth has left stay until it is h away.
+constexpr double persistence_displacement = 0.1;
+
+/// Clusters in a chunk of the search for contacts (cost alone), and in a chunk of a clamp, within which the limit of one cluster
+/// narrows the search of the next. More: threads wait for the last chunk. Fewer: clamps measure pairs that an earlier cluster
+/// would have excluded.
+constexpr unsigned clusters_a_part = 8, clusters_per_clamp = 32;
+
 class MeshDetector : public ContactDetector {
 public:
     explicit MeshDetector(TreeFactory make_tree) : make_tree_(make_tree) {}
@@ -159,8 +169,7 @@ private:
             if (list.quiet_until <= list.travel) near_clusters_.push_back(&list);
         }
         const std::span<ClusterList* const> near = near_clusters_;
-        const std::size_t grain = workers_ ? tolerances::clusters_a_part : near.size() + 1,
-                          parts = chunk_count(near.size(), grain);
+        const std::size_t grain = workers_ ? clusters_a_part : near.size() + 1, parts = chunk_count(near.size(), grain);
         if (searches_.size() < parts) searches_.resize(parts);
         parallel_for_chunks(workers_, near.size(), grain, [&](std::size_t first, std::size_t last, int) {
             ConstraintSearch& own = searches_[first / grain];
@@ -176,7 +185,7 @@ private:
     /// Lowers `safe` to the collision-free step size of all clusters.
     double clamp(const ClothMove& move, double safe) {
         // Chunks are the same for any number of threads; within one, the limit of a cluster bounds the search of the next ones.
-        constexpr std::size_t grain = tolerances::clusters_per_clamp;
+        constexpr std::size_t grain = clusters_per_clamp;
         clamps_.resize(chunk_count(lists_->lists().size(), grain));
         parallel_for_chunks(workers_, lists_->lists().size(), grain, [&](std::size_t first, std::size_t last, int) {
             ChunkClamp& own = clamps_[first / grain];
@@ -196,7 +205,7 @@ private:
         forgotten_at_.resize(positions.size(), Vec3::Zero());
         moved_.resize(positions.size());
         for (std::size_t i = 0; i < positions.size(); ++i) {
-            moved_[i] = all || (positions[i] - forgotten_at_[i]).norm() > tolerances::persistence_displacement * thickness_[i];
+            moved_[i] = all || (positions[i] - forgotten_at_[i]).norm() > persistence_displacement * thickness_[i];
             if (moved_[i]) forgotten_at_[i] = positions[i];
         }
         lists_->forget_persistent(moved_);

@@ -40,18 +40,11 @@ constexpr float no_bound = -1e30F;
 /// Fraction of a move. Below it lists are made however many packs they hold. 0: the search might never end.
 constexpr double min_covered_fraction = 1e-4;
 
-// ---- detector
-
-/// Fraction of h. The next update of the candidates drops the persistent contacts with obstacles of a vertex that has moved
-/// farther than this since they were last dropped. 0: cloth at rest trembles between two sets of contacts. Large: contacts of
-/// places that cloth has left stay until it is h away.
-constexpr double persistence_displacement = 0.1;
-
 // ---- self/
 
-/// Cloth against cloth: how many clusters and lists a thread takes at once, and after how many lists the pairs considered are
-/// counted.
-constexpr std::size_t self_clusters_a_part = 64, self_lists_a_part = 16, self_lists_a_round = 1024;
+/// Cloth against cloth: how many lists a thread takes at once. More: threads wait for the last one. Fewer: they ask for work
+/// more often.
+constexpr std::size_t self_lists_a_part = 16;
 
 /// Activation distance over the rest distance through a seam. Each side is sampled in its own way, so that edges from places
 /// close to each other lie across each other where it is folded: at 0.5 such a fold cannot close below 60 degrees, and contact
@@ -63,21 +56,5 @@ constexpr double seam_activation_ratio = 0.1;
 /// Fraction of a distance. A bound must exceed a distance by this much to exclude a pair, because of rounding (1e-15). 0: the
 /// smallest distance may be that of the second nearest pair, in its last digits.
 constexpr double bound_slack = 1e-9;
-
-/// m. Coordinates of larger magnitude are refused. Squares of areas overflow above 1e77.
-constexpr double largest_coordinate = 1e75;
-
-// ---- attach/
-
-/// Twice the area over the product of two edges: the sine between them. Points are not attached to flatter triangles, which have
-/// no normal.
-constexpr double flat_triangle = 1e-9;
-
-// ---- bullet/
-
-/// Clusters in a chunk of the search for contacts (cost alone), and in a chunk of a clamp, within which the limit of one cluster
-/// narrows the search of the next. More: threads wait for the last chunk. Fewer: clamps measure pairs that an earlier cluster
-/// would have excluded.
-constexpr unsigned clusters_a_part = 8, clusters_per_clamp = 32;
 
 }  // namespace percale::tolerances

@@ -14,7 +14,6 @@
 #include "state/saved_world.h"
 #include "step/measure.h"
 #include "step/step.h"
-#include "tolerances.h"
 
 // What the sources of Simulation share: simulation_scene.cpp (bodies, steps, saved states), simulation_script.cpp (what the
 // caller prescribes), simulation_changes.cpp (changes during a run) and simulation_views.cpp (views of the state).
@@ -22,6 +21,10 @@ namespace percale {
 
 /// m or m/s: largest positions and velocities that a program may give. Larger: squares lose all digits, or are infinite.
 inline constexpr double largest_given_number = 1e9;
+
+/// |q| - 1 of a rotation that a user gives. Smaller: rotations read from text with six digits are refused. Larger: a quaternion
+/// that was never meant to be a rotation is accepted.
+inline constexpr double unit_length_error = 1e-6;
 
 inline std::string number_text(double value) {
     char text[32];

@@ -15,10 +15,14 @@ namespace {
 
 using certificate::Corners;
 
+/// Twice the area over the product of two edges: the sine between them. Points are not attached to flatter triangles, which have
+/// no normal.
+constexpr double flat_triangle = 1e-9;
+
 /// Columns: along the first edge, across it in the plane, along the normal. Returns nothing for a triangle without area.
 std::optional<Eigen::Matrix3d> axes_of(const Corners& t) {
     const Vec3 along = t[1] - t[0], normal = along.cross(t[2] - t[0]);
-    if (!(normal.norm() > tolerances::flat_triangle * along.norm() * (t[2] - t[0]).norm())) return std::nullopt;
+    if (!(normal.norm() > flat_triangle * along.norm() * (t[2] - t[0]).norm())) return std::nullopt;
     Eigen::Matrix3d axes;
     axes.col(0) = along.normalized();
     axes.col(2) = normal.normalized();

@@ -4,15 +4,20 @@
 
 #include "certificate/inside_test.h"
 #include "percale/error.h"
-#include "tolerances.h"
 
 namespace percale {
+namespace {
+
+/// m. Coordinates of larger magnitude are refused. Squares of areas overflow above 1e77.
+constexpr double largest_coordinate = 1e75;
+
+}  // namespace
 
 void check_certifiable(const TriangleMesh& mesh, const std::string& name) {
     check_mesh(mesh, name, false);
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
         const double size = mesh.vertices[v].cwiseAbs().maxCoeff();
-        if (size <= tolerances::largest_coordinate) continue;
+        if (size <= largest_coordinate) continue;
         throw SceneError(name + ": vertex " + std::to_string(v) + " has a coordinate of magnitude " + std::to_string(size) +
                          " m; the largest allowed is 1e75 m");
     }

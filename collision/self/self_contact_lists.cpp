@@ -26,6 +26,11 @@ constexpr double max_room_ratio = 4.0;
 /// list for each `pairs_per_list` of them. See max_packs.
 constexpr long max_self_pairs = 4000000, max_self_pairs_per_vertex = 300, pairs_per_list = 16;
 
+/// How many clusters a thread takes at once, and after how many lists the pairs considered are counted. More: threads wait for
+/// the last one, and lists are made after the pairs are too many. Fewer: threads ask for work, and wait for each other, more
+/// often.
+constexpr std::size_t self_clusters_a_part = 64, self_lists_a_round = 1024;
+
 double largest(std::span<const double> list) { return list.empty() ? 0.0 : *std::max_element(list.begin(), list.end()); }
 
 /// m, largest thickness that is set for a pair of the cloth, or for any pair if no cloth is given; 0 where none is set.
@@ -274,8 +279,8 @@ bool SelfContactLists::make_stale(std::span<const Vec3> from, long max) {
     const std::span<SelfList* const> stale = stale_;
     long considered = 0;
     // Lists are made in rounds: the pairs are counted after each, so that the count is the same for any number of threads.
-    for (std::size_t first = 0; first < stale.size() && considered <= max; first += tolerances::self_lists_a_round) {
-        const auto round = stale.subspan(first, std::min(tolerances::self_lists_a_round, stale.size() - first));
+    for (std::size_t first = 0; first < stale.size() && considered <= max; first += self_lists_a_round) {
+        const auto round = stale.subspan(first, std::min(self_lists_a_round, stale.size() - first));
         considered_.assign(round.size(), 0);
         parallel_for_chunks(workers_, round.size(), tolerances::self_lists_a_part,
                             [&](std::size_t begin, std::size_t end, int slot) {
@@ -305,17 +310,16 @@ void SelfContactLists::for_each_swept(const Island& island, std::span<const Vec3
     const Vec3 begin = centre(island, from), end = centre(island, to);
     for (const int cloth : island.cloths) {
         const std::span<const int> clusters = clusters_of_cloth_[cloth];
-        parallel_for_chunks(workers_, clusters.size(), tolerances::self_clusters_a_part,
-                            [&](std::size_t first, std::size_t last, int) {
-                                for (const int c : clusters.subspan(first, last - first)) {
-                                    Box swept;
-                                    for (const int v : cloth_.clusters[c].all_vertices) {
-                                        swept.add(from[v] - begin);
-                                        swept.add(to[v] - end);
-                                    }
-                                    work(c, swept);
-                                }
-                            });
+        parallel_for_chunks(workers_, clusters.size(), self_clusters_a_part, [&](std::size_t first, std::size_t last, int) {
+            for (const int c : clusters.subspan(first, last - first)) {
+                Box swept;
+                for (const int v : cloth_.clusters[c].all_vertices) {
+                    swept.add(from[v] - begin);
+                    swept.add(to[v] - end);
+                }
+                work(c, swept);
+            }
+        });
     }
 }
 
@@ -372,10 +376,9 @@ SelfList SelfContactLists::take_list(Island& island, int first, int second) {
 }
 
 void SelfContactLists::set_motion(std::span<const Vec3> from, std::span<const Vec3> to) {
-    parallel_for_chunks(workers_, cloth_.clusters.size(), tolerances::self_clusters_a_part,
-                        [&](std::size_t first, std::size_t last, int) {
-                            for (std::size_t c = first; c < last; ++c) set_displacements(cloth_.clusters[c], from, to);
-                        });
+    parallel_for_chunks(workers_, cloth_.clusters.size(), self_clusters_a_part, [&](std::size_t first, std::size_t last, int) {
+        for (std::size_t c = first; c < last; ++c) set_displacements(cloth_.clusters[c], from, to);
+    });
 }
 
 double SelfContactLists::shrink(const SelfList& list) const {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "geometry/triangle_distance.h"
-#include "tolerances.h"
 
 namespace percale {
 namespace {

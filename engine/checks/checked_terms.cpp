@@ -8,10 +8,13 @@
 #include "forces/springs.h"
 #include "forces/total_force.h"
 #include "linear/block_matrix.h"
-#include "tolerances.h"
 
 namespace percale {
 namespace {
+
+/// Fraction of the shortest spring: the displacement of vertices by which derivatives are compared with differences, for
+/// settings.check_derivatives. Smaller: right forces are found wrong. Larger: wrong ones pass.
+constexpr double difference_step_ratio = 1e-5;
 
 /// A single term of the list, as a function of the positions at the end of the step, with the velocities that lead there.
 struct LoneTerm {

@@ -5,7 +5,6 @@
 #include <array>
 #include <span>
 
-#include "../tolerances.h"
 #include "support/deadline.h"
 
 namespace percale {

@@ -13,6 +13,10 @@ namespace {
 /// twice as often.)
 constexpr float jacobi_damping = 0.7f;
 
+/// Sweeps over contact constraints that filter what multigrid transfers to coarser levels and back, where constraints between
+/// cloths are stiff (stiff_constraint_factor). Cost alone.
+constexpr int constraint_sweeps = 3;
+
 using FloatBlock = std::array<float, 6>;
 
 FloatVec times(const FloatBlock& m, const FloatVec& u) {

@@ -3,10 +3,12 @@
 #include <algorithm>
 
 #include "matrix_entries.h"
-#include "tolerances.h"
 
 namespace percale {
 namespace {
+
+/// Iterations that end a subset's linear solve. More: accuracy that the next state makes useless.
+constexpr int max_subset_linear_iterations = 200;
 
 double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     double sum = 0.0;

@@ -24,6 +24,9 @@ constexpr double subset_square = 0.95, min_subset_square = 0.8;
 constexpr double subset_residual_ratio = 0.1;
 constexpr int max_subset_iterations = 8;
 
+/// Residual ratio that ends a subset's linear solve. Smaller: accuracy that the next state makes useless.
+constexpr double subset_linear_ratio = 0.1;
+
 /// Sets |r_i|^2/m_i of each vertex of bodies that are not settled, 0 of others; returns the sum.
 double set_squares(const ClothModel& model, const BodyStates& bodies, const Vec3Arrays& residual, std::vector<double>& squares) {
     squares.assign(model.vertex_count(), 0.0);

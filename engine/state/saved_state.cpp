@@ -5,10 +5,13 @@
 
 #include "percale/error.h"
 #include "support/hash.h"
-#include "tolerances.h"
 
 namespace percale {
 namespace {
+
+/// |q|^2 - 1 of a rotation in a saved state, which was made of unit length before. Smaller: rounding gets a good state refused.
+/// Larger: a quaternion that was never meant to be a rotation is accepted.
+constexpr double unit_square_error = 1e-6;
 
 constexpr std::size_t name_length = 8;
 

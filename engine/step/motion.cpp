@@ -12,6 +12,15 @@ namespace {
 /// Parts of a step, asked for by the travel of one thing, from which the report states that it may have jumped.
 constexpr int jump_parts = 8;
 
+/// Largest motion in one part of a step: rotation of an obstacle in radians, and translations of an obstacle and of a pin in
+/// thicknesses. Larger: parts that vertices on straight lines do not follow, and lists of contacts that grow. Smaller: more
+/// parts.
+constexpr double largest_part_turn = 0.26179938779914943, largest_part_travel = 20.0, largest_pin_travel = 80.0;
+
+/// The excess of a count of parts over a whole number that is taken for rounding. Smaller: rounding adds a part. Larger: parts
+/// that go farther than they may.
+constexpr double part_rounding = 1e-9;
+
 }  // namespace
 
 void report_obstacles(StepScene& scene) {

@@ -2,14 +2,16 @@
 
 #include <algorithm>
 
-#include "tolerances.h"
-
 namespace percale {
 namespace {
 
 /// s, m. Time in which a weld takes up its gap, and the gap at which its spring's force is the largest that it holds with.
 /// Shorter: stitches swing. Wider: a seam that something keeps open pulls harder and harder.
 constexpr double weld_time = 0.05, widest_weld = 0.01;
+
+/// s, in which the hold of a strain limit takes up the excess. Longer: more steps until the limit is kept. Shorter than the time
+/// step: as if it were that long.
+constexpr double limit_time = 1.0 / 60.0;
 
 }  // namespace
 

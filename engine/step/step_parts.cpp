@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "tolerances.h"
-
 namespace percale {
 namespace {
+
+/// m, by which a pin that goes with an obstacle may miss its place on it, because of rounding. Smaller: in parts of a step
+/// the pin goes straight, and leaves the arc of its place. Larger: pins that go their own way are carried along that arc.
+constexpr double carried_pin_error = 1e-8;
 
 /// The shape of an obstacle after a fraction of the step.
 Shape shape_after(double fraction, const ObstacleState& obstacle) {

@@ -12,10 +12,13 @@
 #include "garment/cloth_shape.h"
 #include "meshes/mesh_import.h"
 #include "percale/error.h"
-#include "tolerances.h"
 
 namespace percale::scenes {
 namespace {
+
+/// Fraction of the body's diagonal. In a loop the last shape is the first one where no vertex is farther off. 0: rounding of a
+/// file adds a frame that stands still.
+constexpr double same_shape = 1e-4;
 
 std::unique_ptr<ShapeSource> open_source(const Scene& scene, const ObstacleSpec& obstacle, std::vector<Finding>* warnings) {
     if (int{obstacle.frames.has_value()} + int{!obstacle.cache.empty()} + int{obstacle.clip.has_value()} > 1)

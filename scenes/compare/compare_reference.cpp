@@ -15,6 +15,10 @@ namespace {
 /// Stretch of an edge beyond which a finite end is none.
 constexpr double torn_stretch = 10.0;
 
+/// How often a search for a surviving step halves it. Fewer: schemes that survive short steps alone count as surviving none.
+/// More: the search takes twice as long for each where a scheme survives none.
+constexpr int max_step_halvings = 14;
+
 /// Changes that fall by less than this factor, as often in turn as a candidate has patience, have stopped falling.
 constexpr double min_halving_progress = 1.25;
 

@@ -37,6 +37,28 @@ constexpr double min_thickness_of_place = 1e-5;
 /// like metres and millimetres.
 constexpr double centimetre_ratio = 50.0, millimetre_ratio = 500.0;
 
+// From where on doctor warns. Smaller or larger: warnings of what is right, or none of what is wrong.
+
+/// m. Meshes of bodies and garments are 0.1 to some 10 m large; up to this they look like a unit too much.
+constexpr double tiny_extent = 2e-3;
+
+/// Fraction of a cloth's median edge: rims nearer than that were likely meant to be one.
+constexpr double near_rim_ratio = 0.05;
+/// Times the widest gap between such rims: the weld that doctor names. Less: of several corners at a place, each as far from the
+/// next, some stay apart.
+constexpr double beyond_widest_gap = 2.0;
+/// Fraction of the triangles that a weld may remove for doctor to name it: slivers may go, the shape may not.
+constexpr double dropped_by_weld = 0.01;
+/// Fraction of the median edge that doctor names as the gap between vertices at one place. Any joins them.
+constexpr double same_place_ratio = 1e-6;
+
+/// m. Larger coordinates are refused, as the collision layer refuses them.
+constexpr double largest_coordinate = 1e75;
+
+/// Edge of a cloth over an obstacle's second largest side: too long to lie around it, and what is advised; and over the
+/// obstacle's median edge.
+constexpr double coarse_edge = 0.5, advised_edge = 0.125, coarse_edge_ratio = 10.0;
+
 std::string element_text(int element) { return std::to_string(element); }
 std::string element_text(const VertexPair& edge) { return "(" + std::to_string(edge[0]) + ", " + std::to_string(edge[1]) + ")"; }
 

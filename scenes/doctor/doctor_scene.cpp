@@ -24,6 +24,29 @@
 namespace percale::scenes {
 namespace {
 
+// From where on doctor warns. Smaller or larger: warnings of what is right, or none of what is wrong.
+
+/// Parts of a step from which a fast obstacle is a warning.
+constexpr double dear_motion_parts = 100.0;
+
+/// Shapes of a body that doctor looks at. More: it takes minutes.
+constexpr int max_shapes_looked_at = 20000;
+
+/// s, between two that doctor looks at. Less: as above.
+constexpr double min_time_between_shapes = 1e-4;
+
+/// Thicknesses that a vertex of a body that bends goes in a step that is made whole, as the engine has it.
+constexpr double bending_part_travel = 20.0;
+
+/// Parts of a step from which a body that bends likely has a frame that jumps.
+constexpr double bending_jump_parts = 8.0;
+
+/// Fraction of the longest stable step that is advised.
+constexpr double advised_stable_ratio = 0.8;
+
+/// s, bytes, bytes: what a long run, much memory and much output are.
+constexpr double much_time = 3600.0, much_memory = 8e9, much_disk = 1e10;
+
 constexpr const char* see_keys = "correct it there; `percale explain` lists every key with unit, range and default";
 
 bool has_errors(std::span<const Finding> found) { return count_of(found, Severity::error) > 0; }

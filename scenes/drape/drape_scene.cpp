@@ -23,6 +23,11 @@ namespace {
 /// A flat thing, less deep along y than this fraction of its size, lies there and does not stand.
 constexpr double standing_ratio = 1.5, min_standing_depth = 0.05;
 
+/// A garment of more m (`min_huge_garment`) and of more times the body's size (`huge_garment_ratio`) is in another unit than
+/// m: in the one that makes it nearest to `garment_ratio` of the body. Smaller: tablecloths over cups are taken for centimetres.
+/// Larger: a hat in centimetres is not.
+constexpr double min_huge_garment = 8.0, huge_garment_ratio = 5.0, garment_ratio = 0.6;
+
 /// How a pattern is sewn.
 constexpr double sewing_stiffness = 3000.0;  // N/m
 /// The damping of a preset, with which hems come to rest within seconds.

@@ -35,7 +35,7 @@ LEFT_ALONE = set('''slice_lanes chunk_slices pack_bytes float_lanes double_lanes
 max_candidates max_local_vertices max_terms enclosure_places pair_fetches projection_activation_ratio contact_accuracy flat_fold
 ray_rim name_length seal_length no_length_square blown_up_square any_dt unmoved moved_by_cloth any_feature always good_version no_version
 no_bound unit_roundoff boundless unreachable infinity no_seam unknown none trapezoid_fraction air_pressure standard_gravity
-working_exponent max_halvings constraint_sweeps self_lists_a_part clusters_per_clamp vertices_a_part'''.split())
+working_exponent max_halvings constraint_sweeps self_lists_a_part self_lists_a_round clusters_per_clamp vertices_a_part'''.split())
 # Short runs of what a step can hold: scene, duration in s, options.
 SCENES = [('hang', 0.5, []), ('hang', 0.5, ['step.linear_solver=cg']), ('hang', 0.5, ['step.linear_solver=multigrid']),
           ('swinging_sheet', 0.5, ['step.time_step=auto']), ('swinging_sheet', 0.5, ['step.scheme=tr_bdf2']), ('conveyor', 0.5, []),
