@@ -7,6 +7,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/collision/backends.h"
 #include "tests/support/collision/shapes.h"
+#include "tests/support/collision/smooth_potential.h"
 #include "tests/support/collision/truth.h"
 #include "tests/support/random.h"
 
@@ -15,9 +16,7 @@ namespace {
 
 constexpr double h = 0.2;
 
-/// Any smooth potential of a distance that ends at h, and its derivative.
-double potential(double distance) { return distance < h ? std::pow(h - distance, 3) : 0.0; }
-double slope(double distance) { return distance < h ? -3.0 * std::pow(h - distance, 2) : 0.0; }
+constexpr SmoothPotential smooth{h};
 
 struct Above {
     std::unique_ptr<ContactDetector> detector = make_brute_force_detector();
@@ -41,8 +40,8 @@ struct Above {
         for (std::size_t i = 0; i < constraints.size(); ++i) {
             if (constraints.vertex[i] != std::array{0, -1, -1, -1}) continue;
             CHECK((place - constraints.obstacle_point[i] - constraints.distance[i] * constraints.direction[i]).norm() < 1e-12);
-            sum.energy += constraints.mollifier[i] * potential(constraints.distance[i]);
-            sum.gradient += constraints.mollifier[i] * slope(constraints.distance[i]) * constraints.direction[i];
+            sum.energy += constraints.mollifier[i] * smooth.at(constraints.distance[i]);
+            sum.gradient += constraints.mollifier[i] * smooth.slope(constraints.distance[i]) * constraints.direction[i];
             sum.factors += constraints.mollifier[i];
             ++sum.terms;
         }
@@ -62,16 +61,16 @@ double formula(const TriangleMesh& mesh, const Vec3& p) {
     const std::vector<Vec3>& x = surface.vertices;
     double sum = 0.0;
     for (const Triangle& t : surface.triangles)
-        sum += potential(std::sqrt(closest_on_triangle(p, x[t[0]], x[t[1]], x[t[2]]).distance_squared));
+        sum += smooth.at(std::sqrt(closest_on_triangle(p, x[t[0]], x[t[1]], x[t[2]]).distance_squared));
     std::vector<double> factor(x.size(), 1.0);
     for (int e = 0; e < static_cast<int>(surface.edges.size()); ++e) {
         const auto [a, b] = surface.edges[e].vertex;
         const double around = static_cast<double>(surface.opposites(e).size());
         const double s = std::clamp((x[b] - x[a]).dot(p - x[a]) / (x[b] - x[a]).squaredNorm(), 0.0, 1.0);
-        sum -= (around - 1.0) * potential((p - x[a] - s * (x[b] - x[a])).norm());
+        sum -= (around - 1.0) * smooth.at((p - x[a] - s * (x[b] - x[a])).norm());
         for (const int v : {a, b}) factor[v] += 0.5 * around - 1.0;
     }
-    for (std::size_t v = 0; v < x.size(); ++v) sum += factor[v] * potential((p - x[v]).norm());
+    for (std::size_t v = 0; v < x.size(); ++v) sum += factor[v] * smooth.at((p - x[v]).norm());
     return sum;
 }
 

@@ -6,6 +6,7 @@
 #include "collision/geometry/triangle_distance.h"
 #include "tests/support/catch.h"
 #include "tests/support/collision/shapes.h"
+#include "tests/support/collision/smooth_potential.h"
 #include "tests/support/collision/truth.h"
 #include "tests/support/random.h"
 
@@ -14,9 +15,7 @@ namespace {
 
 constexpr double h = 0.2;
 
-/// Any smooth potential of a distance that ends at h, and its derivative.
-double potential(double distance) { return distance < h ? std::pow(h - distance, 3) : 0.0; }
-double slope(double distance) { return distance < h ? -3.0 * std::pow(h - distance, 2) : 0.0; }
+constexpr SmoothPotential smooth{h};
 
 /// A vertex, the last one, and a surface.
 struct Above {
@@ -51,8 +50,8 @@ struct Above {
                 for (int k = 0; k < 3; ++k) apart -= term.weight[k] * x[triangles[t][k]];
                 CHECK((apart - term.apart).norm() < 1e-12);
                 CHECK(term.distance < h);
-                sum.energy += term.factor * potential(term.distance);
-                sum.gradient += term.factor * slope(term.distance) * term.apart / term.distance;
+                sum.energy += term.factor * smooth.at(term.distance);
+                sum.gradient += term.factor * smooth.slope(term.distance) * term.apart / term.distance;
                 sum.factors += term.factor;
                 ++sum.terms;
             }
@@ -65,7 +64,7 @@ struct Above {
         double sum = 0.0;
         std::vector<int> inner(x.size(), 1);
         for (const Triangle& t : cloth.surface.triangles)
-            sum += potential(std::sqrt(closest_on_triangle(place, x[t[0]], x[t[1]], x[t[2]]).distance_squared));
+            sum += smooth.at(std::sqrt(closest_on_triangle(place, x[t[0]], x[t[1]], x[t[2]]).distance_squared));
         for (const ClothSurface::Edge& edge : cloth.surface.edges) {
             const auto [a, b] = edge.vertex;
             if (edge.triangle[1] < 0) {
@@ -74,9 +73,9 @@ struct Above {
             }
             const Vec3 along = x[b] - x[a];
             const double s = std::clamp(along.dot(place - x[a]) / along.squaredNorm(), 0.0, 1.0);
-            sum -= potential((place - x[a] - s * along).norm());
+            sum -= smooth.at((place - x[a] - s * along).norm());
         }
-        for (int v = 0; v < vertex(); ++v) sum += inner[v] * potential((place - x[v]).norm());
+        for (int v = 0; v < vertex(); ++v) sum += inner[v] * smooth.at((place - x[v]).norm());
         return sum;
     }
 };
@@ -96,7 +95,7 @@ TEST_CASE("the terms of a vertex above flat cloth are one, wherever it is") {
     Random random(2);
     for (int round = 0; round < 500; ++round) {
         const Vec3 place(random.number(-0.5, 0.5), 0.1, random.number(-0.5, 0.5));
-        CHECK(sheet.sum_at(place).energy == Approx(potential(0.1)).epsilon(1e-12));
+        CHECK(sheet.sum_at(place).energy == Approx(smooth.at(0.1)).epsilon(1e-12));
     }
 }
 
@@ -149,7 +148,7 @@ TEST_CASE("faces that hold the vertex itself are no part of the surface that it 
             const SelfPair pair{.vertex = {own, c[0], c[1], c[2]}, .feature = {own, t}, .thickness = h};
             const SurfaceTerms terms = vertex_terms(pair, x, cloth);
             for (const SurfaceTerm& term : std::span(terms.terms).first(terms.count))
-                energy += term.factor * potential(term.distance);
+                energy += term.factor * smooth.at(term.distance);
         }
         CHECK(energy == Approx(rest.sum_at(x[own]).energy).epsilon(1e-12).margin(1e-14));
     }
